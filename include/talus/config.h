@@ -1,0 +1,115 @@
+/* The configuration of one run, in SI units, as read from YAML. */
+#ifndef TALUS_CONFIG_H
+#define TALUS_CONFIG_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "talus/error.h"
+#include "talus/text.h"
+
+enum model_kind { MODEL_DRY };
+enum pressure_kind { PRESSURE_HYDROSTATIC, PRESSURE_NON_HYDROSTATIC };
+enum boundary_kind { BOUNDARY_WALL, BOUNDARY_OUTFLOW };
+enum shape_kind { SHAPE_COLUMN };
+enum law_kind { LAW_MU_I };
+enum wave_speed_kind { WAVE_SPEED_FASTEST, WAVE_SPEED_MEAN };
+enum reconstruction_kind { RECONSTRUCTION_STATIC, RECONSTRUCTION_PRINTED };
+enum method_kind { METHOD_BLOCK_GAUSS_SEIDEL };
+enum operator_kind { OPERATOR_SYMMETRIC, OPERATOR_POINTWISE };
+enum start_kind { START_ZERO, START_PREVIOUS };
+enum norm_kind { NORM_L1, NORM_L2, NORM_LINF };
+
+/* A short list of numbers, kept inside the config so that a config is a plain value. */
+struct real_list {
+	int count;
+	double values[512];
+};
+
+struct config {
+	int model;                     /* enum model_kind */
+	int pressure;                  /* enum pressure_kind */
+	double slope;                  /* angle of the reference plane, positive downhill in +x, rad */
+	double erodible_bed_thickness; /* h_i, m */
+	int layers;                    /* N, equal fractions */
+	int n_ini_guess;               /* layers of the coarse system behind the first guess; 0: none */
+	struct {
+		double x_min, x_max; /* m */
+		int cells;
+		int left, right; /* enum boundary_kind */
+	} domain;
+	struct {
+		int shape;     /* enum shape_kind */
+		double height; /* of the column above the bed layer, m */
+		double front;  /* position of the gate, m */
+	} initial;
+	struct {
+		double diameter;       /* d_s, m */
+		double density;        /* rho_s, kg/m3 */
+		double solid_fraction; /* phi_s, 1 */
+	} grains;
+	struct {
+		int law;              /* enum law_kind */
+		double mu_s, mu_2, i_0; /* 1 */
+	} rheology;
+	struct {
+		double strain_rate; /* delta in the viscosity, 1/s */
+		double velocity;    /* delta in the bottom friction, m/s */
+	} regularisation;
+	struct {
+		double end;     /* s */
+		double cfl;     /* 1 */
+		int wave_speed; /* enum wave_speed_kind */
+	} time;
+	struct {
+		int friction_reconstruction; /* enum reconstruction_kind: where dC of P1 (21) balances */
+	} scheme;
+	struct {
+		int method;         /* enum method_kind */
+		int operator_;      /* enum operator_kind; key `operator` */
+		int start;          /* enum start_kind */
+		int norm;           /* enum norm_kind */
+		double tolerance;   /* of the increment of a sweep, in p/rho units, m2/s2 */
+		int max_iterations; /* sweeps after which the solver is said not to converge */
+	} pressure_solver;
+	struct {
+		struct real_list profiles_at; /* increasing, s */
+		double series_every;          /* s; 0: every step */
+		double front_threshold;       /* h - h_i at the front, m */
+		double static_speed;          /* a layer slower than this is at rest, m/s */
+	} output;
+	struct {
+		double every;    /* wall clock, s; 0: off */
+		int every_steps; /* 0: off */
+	} checkpoint;
+};
+
+/* Read a config from a YAML file. `settings` are `count` texts "key=value" with dotted keys
+ * (`time.cfl=0.5`) that override the file, in order, as `--set` does. Errors: EX_DATAERR for anything
+ * that the file or a setting says wrongly (with file, line and column, or citing --set), EX_NOINPUT is
+ * reported as EX_DATAERR too, EX_SOFTWARE out of memory. */
+int config_read(struct config *config, const char *path, const char *const *settings, int count,
+	struct error *err);
+
+/* The same from text in memory; `name` stands for the file in messages. */
+int config_parse(struct config *config, const char *text, size_t length, const char *name,
+	const char *const *settings, int count, struct error *err);
+
+/* The config as YAML in SI units with every key; config_parse reads it back to the same bits. */
+void config_print(const struct config *config, struct text *out);
+
+/* The annotated reference config: every key with default, unit, range or choices and meaning. */
+void config_print_reference(struct text *out);
+
+/* 16 hexadecimal digits of what can change numbers: every key except `checkpoint`. */
+enum { CONFIG_HASH_SIZE = 17 };
+int config_hash(const struct config *config, char hash[CONFIG_HASH_SIZE], struct error *err);
+
+/* Name, per line, every key (except `checkpoint`) whose value differs: "layers: 10 -> 20". */
+void config_differences(const struct config *a, const struct config *b, struct text *out);
+
+/* The value of a dotted key as config_print writes it, without the key. EX_DATAERR with the nearest
+ * known key for an unknown one, or for a group. */
+int config_value(const struct config *config, const char *key, struct text *out, struct error *err);
+
+#endif
