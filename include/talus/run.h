@@ -1,0 +1,49 @@
+/* A run's life in its folder: start, resume, stop, fail, complete. */
+#ifndef TALUS_RUN_H
+#define TALUS_RUN_H
+
+#include <stdbool.h>
+
+#include "talus/config.h"
+#include "talus/error.h"
+#include "talus/text.h"
+
+struct run_options {
+	bool progress; /* a progress line on stderr while it runs (when that is a terminal) */
+	bool quiet;    /* nothing on stdout */
+	bool retry;    /* start a failed run anew */
+};
+
+/* Bring the run in `folder` (made when missing) to its end: start, resume, or find it complete, and
+ * hold its lock meanwhile. Returns 0 when the run is complete. Codes: EX_FAILED, EX_DATAERR (files
+ * damaged, or made from another config or numerics version: names the keys), EX_CANTCREAT, EX_IOERR,
+ * EX_SOFTWARE, EX_INTERRUPTED (stopped by a signal with a checkpoint written, or locked by another
+ * process). */
+int run_execute(const struct config *config, const char *folder, const struct run_options *options,
+	struct error *err);
+
+enum run_state {
+	RUN_STATE_PENDING,     /* no run file */
+	RUN_STATE_RUNNING,     /* its lock is held */
+	RUN_STATE_INTERRUPTED, /* begun, lock free */
+	RUN_STATE_COMPLETE,
+	RUN_STATE_FAILED,
+	RUN_STATE_DAMAGED      /* no generation of its run file is good */
+};
+
+struct run_report {
+	enum run_state state;
+	double time, end;   /* simulated, s */
+	double wall_left;   /* estimated seconds to the end, NaN: unknown */
+	double cpu_seconds; /* so far, all attempts */
+	int attempts;
+	char reason[1024];  /* why it failed or stopped, "" if it did not */
+};
+
+/* What state the run in `folder` is in. Never takes a lock, never changes anything, and never fails:
+ * what cannot be read is told in `reason`. A `folder` that is missing is pending. */
+void run_report_read(const char *folder, struct run_report *report);
+
+const char *run_state_name(enum run_state state);
+
+#endif
