@@ -20,7 +20,7 @@ struct run_options {
  * EX_SOFTWARE, EX_INTERRUPTED (stopped by a signal with a checkpoint written, or locked by another
  * process). */
 int run_execute(const struct config *config, const char *folder, const struct run_options *options,
-    struct error *err);
+	struct error *err);
 
 enum run_state {
 	RUN_STATE_PENDING,     /* no run file */
