@@ -22,15 +22,14 @@ struct error {
 
 /* Set `err` unless it already holds an error: the lowest message is the one to keep. Return -1. */
 int error_set(struct error *err, int code, const char *format, ...)
-	__attribute__((format(printf, 3, 4)));
+    __attribute__((format(printf, 3, 4)));
 
 /* The same for a place in a file; line and column 0 are left out. */
 int error_at(struct error *err, int code, const char *file, int line, int column,
-	const char *format, ...) __attribute__((format(printf, 6, 7)));
+    const char *format, ...) __attribute__((format(printf, 6, 7)));
 
 /* Put "context: " before the text of an error that is set. Return -1. */
-int error_context(struct error *err, const char *format, ...)
-	__attribute__((format(printf, 2, 3)));
+int error_context(struct error *err, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Out of memory, as every allocation reports it: code EX_SOFTWARE. Return -1. */
 int error_memory(struct error *err, size_t bytes);
@@ -39,10 +38,10 @@ int error_memory(struct error *err, size_t bytes);
 char *error_format(const struct error *err, char *buffer, size_t size);
 
 /* Leave the calling function with -1 when `call` does not return 0. */
-#define TRY(call)             \
-	do {                      \
-		if ((call) != 0)      \
-			return -1;        \
+#define TRY(call)                                                                                  \
+	do {                                                                                           \
+		if ((call) != 0)                                                                           \
+			return -1;                                                                             \
 	} while (0)
 
 #endif

@@ -76,6 +76,8 @@ struct model {
 
 enum { MODEL_ARRAYS_MAX = 16 };
 
+extern const struct model dry_model;
+
 /* The model that a config names. */
 const struct model *model_find(const struct config *config);
 

@@ -20,7 +20,7 @@ struct run_options {
  * EX_SOFTWARE, EX_INTERRUPTED (stopped by a signal with a checkpoint written, or locked by another
  * process). */
 int run_execute(const struct config *config, const char *folder, const struct run_options *options,
-	struct error *err);
+    struct error *err);
 
 enum run_state {
 	RUN_STATE_PENDING,     /* no run file */
@@ -28,7 +28,7 @@ enum run_state {
 	RUN_STATE_INTERRUPTED, /* begun, lock free */
 	RUN_STATE_COMPLETE,
 	RUN_STATE_FAILED,
-	RUN_STATE_DAMAGED      /* no generation of its run file is good */
+	RUN_STATE_DAMAGED /* no generation of its run file is good */
 };
 
 struct run_report {
@@ -37,7 +37,7 @@ struct run_report {
 	double wall_left;   /* estimated seconds to the end, NaN: unknown */
 	double cpu_seconds; /* so far, all attempts */
 	int attempts;
-	char reason[1024];  /* why it failed or stopped, "" if it did not */
+	char reason[1024]; /* why it failed or stopped, "" if it did not */
 };
 
 /* What state the run in `folder` is in. Never takes a lock, never changes anything, and never fails:

@@ -14,9 +14,9 @@ enum run_status { RUN_UNFINISHED, RUN_COMPLETE, RUN_FAILED };
 /* What the trailer says without opening the image. */
 struct run_summary {
 	enum run_status status;
-	uint64_t step;          /* steps done */
-	double time;            /* simulated, s */
-	char config_hash[17];   /* config_hash of the effective config */
+	uint64_t step;        /* steps done */
+	double time;          /* simulated, s */
+	char config_hash[17]; /* config_hash of the effective config */
 };
 
 struct run_file; /* an open image, all in memory; the file itself is closed */
@@ -28,8 +28,8 @@ int run_file_open(const char *path, struct run_file **out, const char **warning,
 /* The newest good generation in a run folder: run.h5, or run.previous.h5 with a warning when run.h5
  * is damaged or missing. `warning` is filled with a sentence, or left empty. EX_DATAERR when no
  * generation is good; EX_NOINPUT when neither exists. */
-int run_file_open_newest(const char *folder, struct run_file **out, struct text *warning,
-	struct error *err);
+int run_file_open_newest(
+    const char *folder, struct run_file **out, struct text *warning, struct error *err);
 
 void run_file_close(struct run_file *file); /* NULL-safe */
 
@@ -46,7 +46,7 @@ struct dataset {
 	size_t extent[3]; /* [rank] */
 	double *values;   /* row major, the product of the extents */
 };
-int run_file_dataset(struct run_file *file, const char *path, struct dataset *out,
-	struct error *err);
+int run_file_dataset(
+    struct run_file *file, const char *path, struct dataset *out, struct error *err);
 
 #endif

@@ -24,8 +24,8 @@ int error_set(struct error *err, int code, const char *format, ...)
 	return -1;
 }
 
-int error_at(struct error *err, int code, const char *file, int line, int column,
-	const char *format, ...)
+int error_at(
+    struct error *err, int code, const char *file, int line, int column, const char *format, ...)
 {
 	va_list args;
 
@@ -67,7 +67,6 @@ char *error_format(const struct error *err, char *buffer, size_t size)
 	else if (!err->line)
 		(void)snprintf(buffer, size, "%s: %s", err->file, err->text);
 	else
-		(void)snprintf(buffer, size, "%s:%d:%d: %s", err->file, err->line, err->column,
-			err->text);
+		(void)snprintf(buffer, size, "%s:%d:%d: %s", err->file, err->line, err->column, err->text);
 	return buffer;
 }

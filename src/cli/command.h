@@ -6,7 +6,7 @@
 
 struct command {
 	const char *name;
-	const char *summary; /* one line for `talus help` */
+	const char *summary;                /* one line for `talus help` */
 	int (*main)(int argc, char **argv); /* argv[0] is the subcommand; returns the exit code */
 };
 
@@ -15,6 +15,6 @@ int command_fail(const struct error *err);
 
 /* Print "talus COMMAND: message" and the way out to stderr; return EX_USAGE. */
 int command_usage(const char *command, const char *format, ...)
-	__attribute__((format(printf, 2, 3)));
+    __attribute__((format(printf, 2, 3)));
 
 #endif

@@ -14,6 +14,6 @@ extern const struct command command_tables;
 
 #define COMMANDS                                                                                   \
 	&command_check, &command_run, &command_info, &command_diff, &command_verify,                   \
-		&command_campaign, &command_tables,
+	    &command_campaign, &command_tables,
 
 #endif

@@ -5,19 +5,18 @@
 #include "cli/command.h"
 #include "cli/commands.h"
 
-static const struct command *const commands[] = {
-	COMMANDS
-};
+static const struct command *const commands[] = {COMMANDS};
 
 static void print_help(FILE *stream)
 {
 	(void)fprintf(stream, "Run campaigns of granular-flow simulations.\n\n"
-						  "usage: talus COMMAND [ARGUMENT]...\n"
-						  "example: talus run configs/granular-collapse.yaml\n\n"
-						  "commands:\n");
+	                      "usage: talus COMMAND [ARGUMENT]...\n"
+	                      "example: talus run configs/granular-collapse.yaml\n\n"
+	                      "commands:\n");
 	for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
 		(void)fprintf(stream, "  %-10s %s\n", commands[i]->name, commands[i]->summary);
-	(void)fprintf(stream, "\n`talus COMMAND --help` tells more; `talus --version` tells the build.\n");
+	(void)fprintf(
+	    stream, "\n`talus COMMAND --help` tells more; `talus --version` tells the build.\n");
 }
 
 int main(int argc, char **argv)

@@ -1,0 +1,139 @@
+/* The multilayer dry model (P1; P2 for one layer; P3 for hydrostatic pressure): its state, shared by
+ * the three steps of a time step. Letters follow the papers.
+ *
+ * Layout: a field of cells is one row of `grid.stride` values per layer, bottom layer first, with a
+ * ghost cell at either end; a field of faces is one row of `grid.faces` values per layer. Every loop
+ * runs along x inside and over the layers outside, so that the compiler can vectorise it. */
+#ifndef TALUS_DRY_H
+#define TALUS_DRY_H
+
+#include <stdint.h>
+
+#include "case/grid.h"
+#include "linear/pressure_solver.h"
+#include "talus/config.h"
+#include "talus/model.h"
+
+/* Where a thin layer of grains stops being a flow, m. */
+#define DRY_NO_MOMENTUM 1e-10 /* thinner cells keep their mass and carry no momentum */
+#define DRY_ONE_LAYER 1e-6    /* thinner cells slide as one layer (P1 Remark 2) */
+#define DRY_NO_PRESSURE 1e-5  /* faces next to thinner cells have no non-hydrostatic pressure */
+
+/* Constants of a run. */
+struct dry_parameters {
+	double gc;        /* g cos(theta), m/s2 */
+	double tan_slope; /* tan(theta), 1 */
+	double rho;       /* phi_s rho_s, kg/m3 */
+	double mu_s, mu_2, i_0;
+	double inertia; /* d_s / sqrt(phi_s): I = inertia |d_z u| / sqrt(p/rho), m */
+	double delta_strain, delta_velocity; /* 1/s, m/s */
+	double bed;                          /* h_i, m */
+	double cfl;
+	double front_threshold, static_speed; /* m, m/s */
+	bool fastest;                         /* wave speed: max over the layers, not the mean */
+	bool static_balance;                  /* dC balances only where it can */
+	bool non_hydrostatic;
+};
+
+/* A pressure operator assembles the system of the projection from the state of a column of layers. */
+struct pressure_input {
+	const struct grid *grid;
+	int layers;
+	double dt;
+	const double *h, *b; /* rows of cells */
+	const double *u, *w; /* velocities, [layers][stride] */
+	const bool *dry;     /* [faces], true: q~ = 0 there */
+	double *const *rows; /* six scratch rows of faces */
+};
+
+struct pressure_operator {
+	const char *name;
+	void (*assemble)(const struct pressure_input *input, struct pressure_system *system);
+};
+
+extern const struct pressure_operator operator_symmetric, operator_pointwise;
+
+/* One elliptic problem: the full one, or the coarse one behind the first guess (P1 4.1). */
+struct projection {
+	int layers;
+	struct pressure_system system;
+	void *scratch; /* of the solver */
+	double *u, *w; /* layer averages, [layers][stride]; NULL in the full problem */
+};
+
+struct model_state {
+	struct dry_parameters par;
+	struct grid grid;
+	int layers;
+
+	/* The exact state. */
+	double *h;    /* thickness, [stride], m */
+	double *U;    /* h u_a, [layers][stride], m2/s */
+	double *W;    /* h w_a, [layers][stride], m2/s */
+	double *q;    /* p_nh/rho below layer a, [layers][faces], m2/s2 */
+	double *dq;   /* the last fluctuation of q, [layers][faces], m2/s2 */
+	double *mass; /* [2], initial mass and what has left through the ends, kg/m */
+
+	double *b; /* bed above the reference plane, [stride], m */
+
+	/* Velocities u_a, w_a: at t^n through transport and friction, then of the new state,
+	 * [layers][stride], m/s. */
+	double *u, *w;
+
+	double *cell[8];  /* scratch rows of cells, [stride] */
+	double *face[10]; /* scratch rows of faces, [faces] */
+	double *work;     /* scratch of friction, [layers][stride] */
+	bool *dry;        /* [faces], q is 0 there */
+
+	const struct pressure_operator *operator_;
+	const struct pressure_solver *solver;
+	struct stopping_rule rule;
+	bool start_previous;
+	struct projection full, coarse; /* coarse.layers = 0: no coarse guess */
+
+	/* Of the last step. */
+	double cpu[3]; /* transport, friction, pressure, s */
+	int iterations, coarse_iterations;
+	double residual;
+
+	double *x, *layer_middle, *layer_interface; /* axes of the run file */
+	double *memory;
+};
+
+/* mu(I) of P1 2.1, from the shear |d_z u| in 1/s and p/rho in m2/s2. */
+static inline double dry_mu(const struct dry_parameters *par, double shear, double p)
+{
+	/* I = d |d_z u| sqrt(rho_s/p); at p = 0 the largest friction, and no stress either way */
+	double inertia = par->inertia * shear;
+
+	return par->mu_s +
+	       (par->mu_2 - par->mu_s) * inertia / (par->i_0 * __builtin_sqrt(p) + inertia + 1e-300);
+}
+
+/* Velocities from discharges, zero where the cell is dry, with ghosts. */
+void dry_velocities(struct model_state *s);
+
+/* Set the cells under DRY_NO_PRESSURE back to slow: U and W times a factor that vanishes with h. */
+void dry_damp(struct model_state *s);
+
+/* Step 1 (P1 18-22): advance h, U, W explicitly; u, w stay those of t^n. */
+void dry_transport(struct model_state *s, double dt);
+
+/* Step 2 (P1 23-25): friction between the layers and at the bottom, implicit with frozen viscosity. */
+void dry_friction(struct model_state *s, double dt);
+
+/* Step 3 (P1 26-33): make the velocity free of divergence. EX_FAILED when the solver does not
+ * converge. */
+int dry_pressure(struct model_state *s, double dt, struct error *err);
+
+/* Add dt T(p) to U and W (P1 9b, 9c), with p a [layers][faces] field in p/rho units. */
+void dry_add_pressure_force(struct model_state *s, const double *p, double dt);
+
+/* Series and profiles (observe.c), as struct model describes them. */
+enum { DRY_SERIES_COUNT = 13, DRY_PROFILE_COUNT = 6 };
+extern const struct series dry_series[DRY_SERIES_COUNT];
+extern const struct profile dry_profiles[DRY_PROFILE_COUNT];
+void dry_observe(const struct model_state *s, double *values);
+void dry_profile(const struct model_state *s, size_t index, double *values);
+
+#endif

@@ -1,0 +1,279 @@
+/* The dry model as a row of the table of models: memory, the time step, and the step. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "case/initial.h"
+#include "dry/dry.h"
+
+#define GRAVITY 9.81 /* m/s2 */
+
+static const struct pressure_operator *const operators[] = {
+    [OPERATOR_SYMMETRIC] = &operator_symmetric,
+    [OPERATOR_POINTWISE] = &operator_pointwise,
+};
+
+static struct dry_parameters parameters(const struct config *config)
+{
+	return (struct dry_parameters){
+	    .gc = GRAVITY * cos(config->slope),
+	    .tan_slope = tan(config->slope),
+	    .rho = config->grains.solid_fraction * config->grains.density,
+	    .mu_s = config->rheology.mu_s,
+	    .mu_2 = config->rheology.mu_2,
+	    .i_0 = config->rheology.i_0,
+	    .inertia = config->grains.diameter / sqrt(config->grains.solid_fraction),
+	    .delta_strain = config->regularisation.strain_rate,
+	    .delta_velocity = config->regularisation.velocity,
+	    .bed = config->erodible_bed_thickness,
+	    .cfl = config->time.cfl,
+	    .front_threshold = config->output.front_threshold,
+	    .static_speed = config->output.static_speed,
+	    .fastest = config->time.wave_speed == WAVE_SPEED_FASTEST,
+	    .static_balance = config->scheme.friction_reconstruction == RECONSTRUCTION_STATIC,
+	    .non_hydrostatic = config->pressure == PRESSURE_NON_HYDROSTATIC,
+	};
+}
+
+/* One block for all fields; `place` hands out its parts. */
+static double *place(double **next, size_t count)
+{
+	double *part = *next;
+
+	if (*next)
+		*next += count;
+	return part;
+}
+
+static size_t layout(struct model_state *s, double *memory)
+{
+	size_t stride = s->grid.stride, faces = (size_t)s->grid.faces, n = (size_t)s->layers;
+	size_t coarse = (size_t)s->coarse.layers;
+	double *next = memory;
+
+	s->h = place(&next, stride);
+	s->b = place(&next, stride);
+	s->U = place(&next, n * stride);
+	s->W = place(&next, n * stride);
+	s->u = place(&next, n * stride);
+	s->w = place(&next, n * stride);
+	s->q = place(&next, n * faces);
+	s->dq = place(&next, n * faces);
+	s->mass = place(&next, 2);
+	for (size_t i = 0; i < sizeof s->cell / sizeof *s->cell; i++)
+		s->cell[i] = place(&next, stride);
+	for (size_t i = 0; i < sizeof s->face / sizeof *s->face; i++)
+		s->face[i] = place(&next, faces);
+	s->work = place(&next, n * stride);
+	s->x = place(&next, stride);
+	s->layer_middle = place(&next, n);
+	s->layer_interface = place(&next, n + 1);
+	s->coarse.u = coarse ? place(&next, coarse * stride) : NULL;
+	s->coarse.w = coarse ? place(&next, coarse * stride) : NULL;
+	return (11 + 5 * n + 2 * coarse) * stride + (10 + 2 * n) * faces + 2 * n + 3;
+}
+
+static int projection_init(struct model_state *s, struct projection *problem, struct error *err)
+{
+	TRY(pressure_system_init(&problem->system, problem->layers, s->grid.faces, err));
+	return s->solver->create(problem->layers, s->grid.faces, &problem->scratch, err);
+}
+
+static void destroy(struct model_state *s)
+{
+	if (!s)
+		return;
+	struct projection *const problems[] = {&s->full, &s->coarse};
+
+	for (size_t i = 0; i < 2; i++) {
+		pressure_system_clean(&problems[i]->system);
+		s->solver->free(problems[i]->scratch);
+	}
+	free(s->dry);
+	free(s->memory);
+	free(s);
+}
+
+static void fill(struct model_state *s, const struct config *config)
+{
+	double mass = 0;
+
+	initial_thickness(config, &s->grid, s->h);
+	for (int i = 1; i <= s->grid.cells; i++) {
+		s->x[i - 1] = grid_centre(&s->grid, i);
+		mass += s->h[i];
+	}
+	s->mass[0] = s->par.rho * mass * s->grid.dx;
+	for (int a = 0; a < s->layers; a++)
+		s->layer_middle[a] = (a + 0.5) / s->layers;
+	for (int a = 0; a <= s->layers; a++)
+		s->layer_interface[a] = (double)a / s->layers;
+}
+
+static int create(const struct config *config, struct model_state **out, struct error *err)
+{
+	struct model_state *s = calloc(1, sizeof *s);
+	size_t count;
+
+	if (!s)
+		return error_memory(err, sizeof *s);
+	s->par = parameters(config);
+	s->grid = grid_make(config);
+	s->layers = s->full.layers = config->layers;
+	s->operator_ = operators[config->pressure_solver.operator_];
+	s->solver = pressure_solver_find(config->pressure_solver.method);
+	s->rule = (struct stopping_rule){config->pressure_solver.norm,
+	    config->pressure_solver.tolerance, config->pressure_solver.max_iterations};
+	s->start_previous = config->pressure_solver.start == START_PREVIOUS;
+	s->coarse.layers = s->par.non_hydrostatic ? config->n_ini_guess : 0;
+	count = layout(s, NULL);
+	s->memory = calloc(count, sizeof *s->memory);
+	s->dry = calloc((size_t)s->grid.faces, sizeof *s->dry);
+	if (!s->memory || !s->dry) {
+		destroy(s);
+		return error_memory(err, count * sizeof *s->memory);
+	}
+	(void)layout(s, s->memory);
+	if ((s->par.non_hydrostatic && projection_init(s, &s->full, err)) ||
+	    (s->coarse.layers && projection_init(s, &s->coarse, err))) {
+		destroy(s);
+		return -1;
+	}
+	fill(s, config);
+	*out = s;
+	return 0;
+}
+
+void dry_velocities(struct model_state *s)
+{
+	for (int a = 0; a < s->layers; a++) {
+		size_t row = (size_t)a * s->grid.stride;
+		const double *h = s->h, *U = s->U + row, *W = s->W + row;
+		double *u = s->u + row, *w = s->w + row;
+
+		for (int i = 1; i <= s->grid.cells; i++) {
+			double inverse = h[i] > DRY_NO_MOMENTUM ? 1 / h[i] : 0;
+
+			u[i] = U[i] * inverse;
+			w[i] = W[i] * inverse;
+		}
+		grid_fill_odd(&s->grid, u);
+		grid_fill_even(&s->grid, w);
+	}
+}
+
+void dry_damp(struct model_state *s)
+{
+	for (int i = 1; i <= s->grid.cells; i++) {
+		double h2 = s->h[i] * s->h[i], factor = sqrt(2) * h2 / sqrt(h2 * h2 + 1e-20);
+
+		if (s->h[i] >= DRY_NO_PRESSURE)
+			continue;
+		if (s->h[i] < DRY_NO_MOMENTUM)
+			factor = 0;
+		for (int a = 0; a < s->layers; a++) {
+			s->U[(size_t)a * s->grid.stride + (size_t)i] *= factor;
+			s->W[(size_t)a * s->grid.stride + (size_t)i] *= factor;
+		}
+	}
+}
+
+/* P1 (14), with either reading of the wave speed. */
+static double time_step(const struct model_state *s)
+{
+	double fastest = 0;
+
+	for (int i = 1; i <= s->grid.cells; i++) {
+		double speed = 0, sum = 0, lambda;
+
+		for (int a = 0; a < s->layers; a++) {
+			double u = s->u[(size_t)a * s->grid.stride + (size_t)i];
+
+			sum += u;
+			speed = fmax(speed, fabs(u));
+		}
+		lambda = (s->par.fastest ? speed : fabs(sum) / s->layers) + sqrt(s->par.gc * s->h[i]);
+		if (isnan(lambda))
+			return lambda;
+		fastest = lambda > fastest ? lambda : fastest;
+	}
+	return s->par.cfl * s->grid.dx / fastest;
+}
+
+/* Where the numbers are no longer a flow. */
+static int check(const struct model_state *s, struct error *err)
+{
+	for (int i = 1; i <= s->grid.cells; i++) {
+		double sum = s->h[i];
+
+		if (s->h[i] < 0)
+			return error_set(err, EX_FAILED, "negative thickness %g m at x = %g m", s->h[i],
+			    grid_centre(&s->grid, i));
+		for (int a = 0; a < s->layers; a++)
+			sum += fabs(s->u[(size_t)a * s->grid.stride + (size_t)i]) +
+			       fabs(s->w[(size_t)a * s->grid.stride + (size_t)i]);
+		if (!isfinite(sum))
+			return error_set(err, EX_FAILED, "the state is not finite (thickness %g m) at x = %g m",
+			    s->h[i], grid_centre(&s->grid, i));
+	}
+	return 0;
+}
+
+static int step(struct model_state *s, double dt, struct error *err)
+{
+	double at[4];
+
+	at[0] = clock_cpu();
+	dry_transport(s, dt);
+	at[1] = clock_cpu();
+	dry_friction(s, dt);
+	dry_damp(s);
+	at[2] = at[3] = clock_cpu();
+	if (s->par.non_hydrostatic) {
+		TRY(dry_pressure(s, dt, err));
+		dry_damp(s);
+		at[3] = clock_cpu();
+	}
+	for (int i = 0; i < 3; i++)
+		s->cpu[i] = at[i + 1] - at[i];
+	dry_velocities(s);
+	return check(s, err);
+}
+
+static struct axes axes(const struct model_state *s)
+{
+	return (struct axes){s->grid.cells, s->layers, s->x, s->layer_middle, s->layer_interface};
+}
+
+static size_t arrays(struct model_state *s, struct array *list)
+{
+	size_t stride = s->grid.stride, faces = (size_t)s->grid.faces, n = (size_t)s->layers, i = 0;
+
+	list[i++] = (struct array){"h", s->h, {1, stride}};
+	list[i++] = (struct array){"hu", s->U, {n, stride}};
+	list[i++] = (struct array){"hw", s->W, {n, stride}};
+	list[i++] = (struct array){"u", s->u, {n, stride}};
+	list[i++] = (struct array){"w", s->w, {n, stride}};
+	list[i++] = (struct array){"q", s->q, {n, faces}};
+	list[i++] = (struct array){"dq", s->dq, {n, faces}};
+	list[i++] = (struct array){"mass", s->mass, {1, 2}};
+	return i;
+}
+
+const struct model dry_model = {
+    .name = "dry",
+    .numerics_version = 1,
+    .series = dry_series,
+    .series_count = DRY_SERIES_COUNT,
+    .profiles = dry_profiles,
+    .profile_count = DRY_PROFILE_COUNT,
+    .create = create,
+    .time_step = time_step,
+    .step = step,
+    .observe = dry_observe,
+    .profile = dry_profile,
+    .axes = axes,
+    .arrays = arrays,
+    .free = destroy,
+};

@@ -1,0 +1,242 @@
+/* What a dry run records: series per step and profiles at chosen times. */
+#include <math.h>
+
+#include "dry/dry.h"
+
+enum {
+	FRONT_POSITION,
+	FRONT_VELOCITY,
+	MAX_SPEED,
+	MAX_THICKNESS,
+	MASS,
+	MASS_OUTFLOW,
+	ENERGY,
+	PRESSURE_ITERATIONS,
+	COARSE_ITERATIONS,
+	PRESSURE_RESIDUAL,
+	CPU_TRANSPORT,
+	CPU_FRICTION,
+	CPU_PRESSURE,
+};
+
+const struct series dry_series[DRY_SERIES_COUNT] = {
+    [FRONT_POSITION] = {.name = "front_position",
+        .units = "m",
+        .long_name = "rightmost crossing of the front threshold",
+        .slope_of = -1},
+    [FRONT_VELOCITY] = {.name = "front_velocity",
+        .units = "m s-1",
+        .long_name = "slope of the front position over the trailing 0.02 s",
+        .slope_of = FRONT_POSITION,
+        .window = 0.02},
+    [MAX_SPEED] = {.name = "max_speed",
+        .units = "m s-1",
+        .long_name = "largest layer velocity along the slope",
+        .slope_of = -1},
+    [MAX_THICKNESS] = {.name = "max_thickness",
+        .units = "m",
+        .long_name = "largest thickness",
+        .slope_of = -1},
+    [MASS] = {.name = "mass",
+        .units = "kg m-1",
+        .long_name = "mass in the domain per unit width",
+        .slope_of = -1},
+    [MASS_OUTFLOW] = {.name = "mass_outflow",
+        .units = "kg m-1",
+        .long_name = "mass that has left through the ends per unit width",
+        .slope_of = -1},
+    [ENERGY] = {.name = "energy",
+        .units = "J m-1",
+        .long_name = "kinetic and potential energy per unit width (P1 Theorem 1)",
+        .slope_of = -1},
+    [PRESSURE_ITERATIONS] = {.name = "pressure_iterations",
+        .units = "1",
+        .long_name = "iterations of the pressure solver in the step",
+        .whole = true,
+        .slope_of = -1},
+    [COARSE_ITERATIONS] = {.name = "coarse_iterations",
+        .units = "1",
+        .long_name = "iterations of the coarse system behind the first guess",
+        .whole = true,
+        .slope_of = -1},
+    [PRESSURE_RESIDUAL] = {.name = "pressure_residual",
+        .units = "1",
+        .long_name = "true relative residual of the pressure system",
+        .slope_of = -1},
+    [CPU_TRANSPORT] = {.name = "cpu_transport",
+        .units = "s",
+        .long_name = "CPU time of step 1, transport",
+        .slope_of = -1,
+        .per_step_sum = true},
+    [CPU_FRICTION] = {.name = "cpu_friction",
+        .units = "s",
+        .long_name = "CPU time of step 2, friction",
+        .slope_of = -1,
+        .per_step_sum = true},
+    [CPU_PRESSURE] = {.name = "cpu_pressure",
+        .units = "s",
+        .long_name = "CPU time of step 3, non-hydrostatic pressure",
+        .slope_of = -1,
+        .per_step_sum = true},
+};
+
+enum { BED, THICKNESS, STATIC_HEIGHT, VELOCITY, NORMAL_VELOCITY, PRESSURE };
+
+const struct profile dry_profiles[DRY_PROFILE_COUNT] = {
+    [BED] = {"b", "m", "bed above the reference plane", PROFILE_X, true},
+    [THICKNESS] = {"h", "m", "thickness normal to the reference plane", PROFILE_X, false},
+    [STATIC_HEIGHT] = {"static_height", "m", "height of the flow/no-flow interface above the bed",
+        PROFILE_X, false},
+    [VELOCITY] = {"u", "m s-1", "layer velocity along the slope", PROFILE_LAYER_X, false},
+    [NORMAL_VELOCITY] = {"w", "m s-1", "layer velocity normal to the slope", PROFILE_LAYER_X,
+        false},
+    [PRESSURE] = {"p", "Pa", "total pressure at the layer interfaces", PROFILE_INTERFACE_X, false},
+};
+
+/* Rightmost crossing of h - h_i = threshold, linear between the cell centres; NaN: none. */
+static double front(const struct model_state *s)
+{
+	double level = s->par.bed + s->par.front_threshold;
+	const double *h = s->h;
+	int i = s->grid.cells;
+
+	while (i >= 1 && h[i] <= level)
+		i--;
+	if (i < 1)
+		return NAN;
+	if (i == s->grid.cells)
+		return s->grid.x_min + s->grid.cells * s->grid.dx;
+	return grid_centre(&s->grid, i) + s->grid.dx * (h[i] - level) / (h[i] - h[i + 1]);
+}
+
+/* P1 Theorem 1 summed over the domain, times rho: J/m. */
+static double energy(const struct model_state *s)
+{
+	double sum = 0, end = s->grid.x_min + s->grid.cells * s->grid.dx;
+
+	for (int i = 1; i <= s->grid.cells; i++) {
+		double kinetic = 0, plane = (end - grid_centre(&s->grid, i)) * s->par.tan_slope;
+
+		for (int a = 0; a < s->layers; a++) {
+			size_t k = (size_t)a * s->grid.stride + (size_t)i;
+
+			kinetic += s->u[k] * s->u[k] + s->w[k] * s->w[k];
+		}
+		sum +=
+		    s->h[i] * (0.5 * kinetic / s->layers + s->par.gc * (plane + s->b[i] + 0.5 * s->h[i]));
+	}
+	return s->par.rho * s->grid.dx * sum;
+}
+
+void dry_observe(const struct model_state *s, double *values)
+{
+	double mass = 0, speed = 0, thickest = 0;
+
+	for (int i = 1; i <= s->grid.cells; i++) {
+		mass += s->h[i];
+		thickest = fmax(thickest, s->h[i]);
+	}
+	for (int a = 0; a < s->layers; a++)
+		for (int i = 1; i <= s->grid.cells; i++)
+			speed = fmax(speed, fabs(s->u[(size_t)a * s->grid.stride + (size_t)i]));
+	values[FRONT_POSITION] = front(s);
+	values[MAX_SPEED] = speed;
+	values[MAX_THICKNESS] = thickest;
+	values[MASS] = s->par.rho * s->grid.dx * mass;
+	values[MASS_OUTFLOW] = s->mass[1];
+	values[ENERGY] = energy(s);
+	values[PRESSURE_ITERATIONS] = s->iterations;
+	values[COARSE_ITERATIONS] = s->coarse_iterations;
+	values[PRESSURE_RESIDUAL] = s->residual;
+	values[CPU_TRANSPORT] = s->cpu[0];
+	values[CPU_FRICTION] = s->cpu[1];
+	values[CPU_PRESSURE] = s->cpu[2];
+}
+
+/* Height below which the column is slower than the static speed, linear between layer middles. */
+static double static_height(const struct model_state *s, int i)
+{
+	double limit = s->par.static_speed, slower = 0, slower_at = 0, dz = s->h[i] / s->layers;
+
+	for (int a = 0; a < s->layers; a++) {
+		double speed = fabs(s->u[(size_t)a * s->grid.stride + (size_t)i]), at = (a + 0.5) * dz;
+
+		if (speed >= limit)
+			return a == 0 ? 0 : slower_at + (at - slower_at) * (limit - slower) / (speed - slower);
+		slower = speed;
+		slower_at = at;
+	}
+	return s->h[i];
+}
+
+/* Without non-hydrostatic pressure w is what incompressibility makes it, P1 (9d). */
+static void diagnose_w(const struct model_state *s, double *values)
+{
+	int cells = s->grid.cells;
+	double n = s->layers, width = 2 * s->grid.dx;
+	const double *h = s->h, *b = s->b;
+
+	for (int i = 1; i <= cells; i++) {
+		double below = 0;
+
+		for (int a = 0; a < s->layers; a++) {
+			const double *u = s->u + (size_t)a * s->grid.stride;
+			double flux = (h[i + 1] * u[i + 1] - h[i - 1] * u[i - 1]) / (n * width);
+			double middle = (b[i + 1] - b[i - 1] + (a + 0.5) / n * (h[i + 1] - h[i - 1])) / width;
+
+			values[(size_t)a * (size_t)cells + (size_t)(i - 1)] =
+			    u[i] * middle - below - 0.5 * flux;
+			below += flux;
+		}
+	}
+}
+
+static void total_pressure(const struct model_state *s, double *values)
+{
+	size_t cells = (size_t)s->grid.cells, faces = (size_t)s->grid.faces;
+
+	for (int a = 0; a <= s->layers; a++)
+		for (size_t i = 1; i <= cells; i++) {
+			const double *q = s->q + (size_t)a * faces + i;
+			double fluctuation = a < s->layers ? 0.5 * (q[-1] + q[0]) : 0;
+
+			values[(size_t)a * cells + i - 1] =
+			    s->par.rho * (s->par.gc * s->h[i] * (s->layers - a) / s->layers + fluctuation);
+		}
+}
+
+static void copy_cells(const struct model_state *s, const double *field, int rows, double *values)
+{
+	size_t cells = (size_t)s->grid.cells;
+
+	for (int a = 0; a < rows; a++)
+		for (size_t i = 0; i < cells; i++)
+			values[(size_t)a * cells + i] = field[(size_t)a * s->grid.stride + i + 1];
+}
+
+void dry_profile(const struct model_state *s, size_t index, double *values)
+{
+	switch (index) {
+	case BED:
+		copy_cells(s, s->b, 1, values);
+		break;
+	case THICKNESS:
+		copy_cells(s, s->h, 1, values);
+		break;
+	case STATIC_HEIGHT:
+		for (int i = 1; i <= s->grid.cells; i++)
+			values[i - 1] = static_height(s, i);
+		break;
+	case VELOCITY:
+		copy_cells(s, s->u, s->layers, values);
+		break;
+	case NORMAL_VELOCITY:
+		if (s->par.non_hydrostatic)
+			copy_cells(s, s->w, s->layers, values);
+		else
+			diagnose_w(s, values);
+		break;
+	default:
+		total_pressure(s, values);
+	}
+}

@@ -1,0 +1,102 @@
+/* The projection with the constraint as the discrete adjoint of the pressure force: the matrix
+ * A = sum over the cells of T^T T / h, right side -(1/dt) sum of T^T u, is symmetric and positive
+ * definite, and the step takes out of the kinetic energy exactly what the pressure works.
+ *
+ * In cell i and layer a the force (P1 9b, 9c) on the four pressures around it, left and right below
+ * (l, r) and above (L, R), with q a mean and d_x q a difference of two faces:
+ *   T^u = (p - s) q_l + (-p - s) q_r + (p + s) q_L + (-p + s) q_R,  p = h/(2 dx), s = xi_a/2
+ *   T^w = N/2 (q_l + q_r - q_L - q_R),   xi_a = (a - 1/2) d_x h + N d_x b, central. */
+#include <string.h>
+
+#include "dry/dry.h"
+
+/* The bands that one layer of cells fills: of its lower interface and of the one above (NULL-like rows
+ * of the top interface do not exist, since q = 0 at the surface). */
+struct bands {
+	double *restrict diagonal, *restrict lower, *restrict upper, *restrict rhs;
+	double *restrict above_lower, *restrict above_diagonal, *restrict above_upper;
+};
+
+static struct bands bands_of(const struct pressure_system *system, int a)
+{
+	size_t row = pressure_system_row(system, a);
+
+	return (struct bands){system->diagonal + row, system->lower + row, system->upper + row,
+	    system->rhs + row, system->above_lower + row, system->above_diagonal + row,
+	    system->above_upper + row};
+}
+
+static void add_layer(const struct pressure_input *in, struct pressure_system *system, int a)
+{
+	const struct grid *grid = in->grid;
+	const double *h = in->h, *b = in->b;
+	const double *u = in->u + (size_t)a * grid->stride, *w = in->w + (size_t)a * grid->stride;
+	double n = in->layers, half = 0.5 * n, dx = grid->dx;
+	bool top = a == in->layers - 1;
+	struct bands low = bands_of(system, a), high = bands_of(system, top ? a : a + 1);
+
+	for (int i = 1; i <= grid->cells; i++) {
+		int l = i - 1, r = i;
+		double wet_l = in->dry[l] ? 0 : 1, wet_r = in->dry[r] ? 0 : 1, wet_lr = wet_l * wet_r;
+		double inverse = h[i] > DRY_NO_MOMENTUM ? 1 / h[i] : 0;
+		double p = 0.5 * h[i] / dx;
+		double s = 0.25 * ((a + 0.5) * (h[i + 1] - h[i - 1]) + n * (b[i + 1] - b[i - 1])) / dx;
+		double cl = p - s, cr = -p - s, cL = p + s, cR = -p + s, nn = half * half;
+
+		low.diagonal[l] += wet_l * (cl * cl + nn) * inverse;
+		low.diagonal[r] += wet_r * (cr * cr + nn) * inverse;
+		low.upper[l] += wet_lr * (cl * cr + nn) * inverse;
+		low.rhs[l] -= wet_l * (cl * u[i] + half * w[i]) / in->dt;
+		low.rhs[r] -= wet_r * (cr * u[i] + half * w[i]) / in->dt;
+		if (top)
+			continue;
+		high.diagonal[l] += wet_l * (cL * cL + nn) * inverse;
+		high.diagonal[r] += wet_r * (cR * cR + nn) * inverse;
+		high.upper[l] += wet_lr * (cL * cR + nn) * inverse;
+		high.rhs[l] -= wet_l * (cL * u[i] - half * w[i]) / in->dt;
+		high.rhs[r] -= wet_r * (cR * u[i] - half * w[i]) / in->dt;
+		low.above_diagonal[l] += wet_l * (cl * cL - nn) * inverse;
+		low.above_diagonal[r] += wet_r * (cr * cR - nn) * inverse;
+		low.above_upper[l] += wet_lr * (cl * cR - nn) * inverse;
+		low.above_lower[r] += wet_lr * (cr * cL - nn) * inverse;
+	}
+}
+
+/* The other half of the bands, from symmetry; and q~ = 0 on dry faces. */
+static void complete_layer(const struct pressure_input *in, struct pressure_system *system, int a)
+{
+	int faces = in->grid->faces;
+	struct bands own = bands_of(system, a);
+	size_t row = pressure_system_row(system, a);
+
+	for (int f = 0; f < faces; f++)
+		if (in->dry[f])
+			own.diagonal[f] = 1;
+	for (int f = 1; f < faces; f++)
+		own.lower[f] = own.upper[f - 1];
+	if (a == 0)
+		return;
+	struct bands down = bands_of(system, a - 1);
+
+	for (int f = 0; f < faces; f++) {
+		system->below_diagonal[row + (size_t)f] = down.above_diagonal[f];
+		system->below_lower[row + (size_t)f] = f > 0 ? down.above_upper[f - 1] : 0;
+		system->below_upper[row + (size_t)f] = f + 1 < faces ? down.above_lower[f + 1] : 0;
+	}
+}
+
+static void assemble(const struct pressure_input *in, struct pressure_system *system)
+{
+	size_t bytes = (size_t)system->layers * (size_t)system->faces * sizeof(double);
+	double *const filled[] = {system->diagonal, system->lower, system->upper, system->rhs,
+	    system->above_lower, system->above_diagonal, system->above_upper};
+
+	for (size_t i = 0; i < sizeof filled / sizeof *filled; i++)
+		memset(filled[i], 0, bytes);
+	for (int a = 0; a < in->layers; a++)
+		add_layer(in, system, a);
+	for (int a = 0; a < in->layers; a++)
+		complete_layer(in, system, a);
+}
+
+const struct pressure_operator operator_symmetric = {.name = "symmetric", .assemble = assemble};

@@ -1,0 +1,158 @@
+/* Step 3: the projection onto velocities free of divergence (P1 26-33), with the first guess from a
+ * coarse system (P1 4.1). */
+#include <math.h>
+#include <string.h>
+
+#include "dry/dry.h"
+
+void dry_add_pressure_force(struct model_state *s, const double *p, double dt)
+{
+	const struct grid *grid = &s->grid;
+	double dx = grid->dx, n = s->layers;
+	const double *h = s->h, *b = s->b;
+
+	for (int a = 0; a < s->layers; a++) {
+		const double *low = p + (size_t)a * (size_t)grid->faces;
+		const double *high = low + grid->faces;
+		double *U = s->U + (size_t)a * grid->stride, *W = s->W + (size_t)a * grid->stride;
+		double top = a == s->layers - 1 ? 0 : 1; /* q = 0 at the surface */
+
+		if (a == s->layers - 1)
+			high = low;
+		for (int i = 1; i <= grid->cells; i++) {
+			double hl = top * high[i - 1], hr = top * high[i];
+			double xi = ((a + 0.5) * (h[i + 1] - h[i - 1]) + n * (b[i + 1] - b[i - 1])) / (2 * dx);
+			double mean = 0.5 * (low[i - 1] + low[i]), mean_high = 0.5 * (hl + hr);
+			double slope = (low[i] - low[i - 1] + hr - hl) / dx;
+
+			U[i] += dt * (-0.5 * h[i] * slope + xi * (mean_high - mean));
+			W[i] += dt * n * (mean - mean_high);
+		}
+	}
+}
+
+/* Faces without non-hydrostatic pressure: open ends, and next to a cell that is nearly dry. */
+static void mark_dry(struct model_state *s)
+{
+	const struct grid *grid = &s->grid;
+
+	for (int f = 0; f < grid->faces; f++)
+		s->dry[f] = s->h[f] < DRY_NO_PRESSURE || s->h[f + 1] < DRY_NO_PRESSURE;
+	if (s->operator_ == &operator_symmetric) { /* the other has the rows of P1 (37) there */
+		s->dry[0] |= !grid->left_wall;
+		s->dry[grid->cells] |= !grid->right_wall;
+	}
+}
+
+static void assemble(struct model_state *s, struct projection *problem, double dt)
+{
+	const struct grid *grid = &s->grid;
+	struct pressure_input input = {
+	    .grid = grid,
+	    .layers = problem->layers,
+	    .dt = dt,
+	    .h = s->h,
+	    .b = s->b,
+	    .u = problem->u ? problem->u : s->u,
+	    .w = problem->w ? problem->w : s->w,
+	    .dry = s->dry,
+	    .rows = s->face,
+	};
+
+	s->operator_->assemble(&input, &problem->system);
+	for (int f = 0; f < grid->faces; f++)
+		problem->system.weight[f] = 0.5 * (s->h[f] + s->h[f + 1]) * grid->dx / problem->layers;
+}
+
+/* Layer averages for the coarse system (P1 4.1). */
+static void average_layers(
+    const double *fine, int merged, double *coarse, int layers, size_t stride)
+{
+	for (int c = 0; c < layers; c++)
+		for (size_t i = 0; i < stride; i++) {
+			double sum = 0;
+
+			for (int a = c * merged; a < (c + 1) * merged; a++)
+				sum += fine[(size_t)a * stride + i];
+			coarse[(size_t)c * stride + i] = sum / merged;
+		}
+}
+
+/* Start the full system from the coarse solution, linear over the height between the interfaces that
+ * both have. (The index of P1 4.1 is inconsistent; linear takes the fewest iterations.) */
+static void prolong(struct pressure_system *full, const struct pressure_system *coarse)
+{
+	int merged = full->layers / coarse->layers;
+
+	for (int a = 0; a < full->layers; a++) {
+		double t = (double)(a % merged) / merged;
+		const double *low = pressure_system_x(coarse, a / merged);
+		const double *high = pressure_system_x(coarse, a / merged + 1);
+		double *x = pressure_system_x(full, a);
+
+		for (int f = 0; f < full->faces; f++)
+			x[f] = (1 - t) * low[f] + t * high[f];
+	}
+}
+
+/* Start a system from the last fluctuation (at the interfaces that it has) or from zero. */
+static void start(const struct model_state *s, struct pressure_system *system)
+{
+	int merged = s->layers / system->layers;
+
+	for (int a = 0; a < system->layers; a++) {
+		double *x = pressure_system_x(system, a);
+		const double *last = s->dq + (size_t)(a * merged) * (size_t)s->grid.faces;
+
+		for (int f = 0; f < system->faces; f++)
+			x[f] = s->start_previous && !s->dry[f] ? last[f] : 0;
+	}
+}
+
+static int solve(
+    struct model_state *s, struct projection *problem, int *iterations, struct error *err)
+{
+	int done = s->solver->solve(&problem->system, &s->rule, problem->scratch);
+
+	*iterations = done < 0 ? -done : done;
+	if (done >= 0)
+		return 0;
+	return error_set(err, EX_FAILED,
+	    "the pressure solver (%s, %d layers) did not converge: %d iterations, tolerance %g m2/s2",
+	    s->solver->name, problem->layers, -done, s->rule.tolerance);
+}
+
+int dry_pressure(struct model_state *s, double dt, struct error *err)
+{
+	struct pressure_system *system = &s->full.system;
+	size_t faces = (size_t)s->grid.faces, stride = s->grid.stride;
+
+	mark_dry(s);
+	dry_velocities(s);
+	assemble(s, &s->full, dt);
+	s->coarse_iterations = 0;
+	if (s->coarse.layers) {
+		int merged = s->layers / s->coarse.layers;
+
+		average_layers(s->u, merged, s->coarse.u, s->coarse.layers, stride);
+		average_layers(s->w, merged, s->coarse.w, s->coarse.layers, stride);
+		assemble(s, &s->coarse, dt);
+		start(s, &s->coarse.system);
+		TRY(solve(s, &s->coarse, &s->coarse_iterations, err));
+		prolong(system, &s->coarse.system);
+	} else {
+		start(s, system);
+	}
+	TRY(solve(s, &s->full, &s->iterations, err));
+	s->residual = pressure_system_residual(system);
+	for (int a = 0; a < s->layers; a++) {
+		double *q = s->q + (size_t)a * faces, *dq = s->dq + (size_t)a * faces;
+		const double *x = pressure_system_x(system, a);
+
+		memcpy(dq, x, faces * sizeof *dq);
+		for (size_t f = 0; f < faces; f++)
+			q[f] = s->dry[f] ? 0 : q[f] + x[f];
+	}
+	dry_add_pressure_force(s, s->dq, dt);
+	return 0;
+}

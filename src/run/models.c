@@ -1,0 +1,10 @@
+#include "talus/model.h"
+
+static const struct model *const models[] = {
+    [MODEL_DRY] = &dry_model,
+};
+
+const struct model *model_find(const struct config *config)
+{
+	return models[config->model];
+}
