@@ -110,6 +110,22 @@ bool text_to_integer(const char *string, int *value)
 	return true;
 }
 
+char *text_excerpt(const char *string, char *buffer, size_t size)
+{
+	size_t length = strlen(string);
+	bool cut = length >= size;
+
+	if (cut) {
+		length = size - sizeof "...";
+		while (length > 0 && ((unsigned char)string[length] & 0xC0) == 0x80)
+			length--; /* not in the middle of a UTF-8 character */
+	}
+	for (size_t i = 0; i < length; i++)
+		buffer[i] = iscntrl((unsigned char)string[i]) ? '?' : string[i];
+	(void)snprintf(buffer + length, size - length, "%s", cut ? "..." : "");
+	return buffer;
+}
+
 int text_distance(const char *a, const char *b)
 {
 	enum { LIMIT = 64 };

@@ -36,4 +36,7 @@ void node_clean(struct node *node);
 /* The value of `key` in a mapping, NULL if absent. */
 const struct node *node_find(const struct node *mapping, const char *key);
 
+/* "a single value", "a list" or "a group of keys" */
+const char *node_kind_name(const struct node *node);
+
 #endif

@@ -1,0 +1,212 @@
+#include "talus/config.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+#include "config/config_table.h"
+#include "config/quantity.h"
+
+/* One "key=value" and the name it has in messages. */
+struct setting {
+	struct field_source source;
+	char name[256];
+};
+
+/* The value is YAML, so that lists are written as in a file. */
+static int parse_setting(
+    struct setting *setting, const char *key, const char *value, struct error *err)
+{
+	if (!value[strspn(value, " \t")])
+		return error_at(err, EX_DATAERR, setting->name, 0, 0, "%s: the value is missing", key);
+	if (yaml_parse(&setting->source.root, value, strlen(value), setting->name, err) != 0) {
+		err->line = err->column = 0; /* of the value, which nobody sees as a file */
+		return error_context(err, "%s", key);
+	}
+	return 0;
+}
+
+static int collect_setting(
+    struct field_reader *reader, struct setting *setting, const char *text, struct error *err)
+{
+	const char *equals = strchr(text, '=');
+	int used = snprintf(setting->name, sizeof setting->name, "--set ");
+	char *key;
+	int status;
+
+	(void)text_excerpt(text, setting->name + used, sizeof setting->name - (size_t)used);
+	setting->source.name = setting->name;
+	setting->source.setting = true;
+	if (!equals)
+		return error_at(err, EX_DATAERR, setting->name, 0, 0, "a setting is written key=value");
+	key = strndup(text, (size_t)(equals - text));
+	if (!key)
+		return error_memory(err, (size_t)(equals - text) + 1);
+	status = parse_setting(setting, key, equals + 1, err);
+	if (status == 0)
+		status = field_collect_key(reader, &setting->source, key, &setting->source.root, err);
+	free(key);
+	return status;
+}
+
+static int check_layers(
+    const struct config *config, const struct field_reader *reader, struct error *err)
+{
+	int n = config->n_ini_guess;
+
+	if (n >= config->layers)
+		(void)error_set(
+		    err, EX_DATAERR, "n_ini_guess: %d is not below layers (%d)", n, config->layers);
+	else if (n > 0 && config->layers % n != 0)
+		(void)error_set(
+		    err, EX_DATAERR, "n_ini_guess: %d does not divide layers (%d)", n, config->layers);
+	return err->code ? field_blame(reader, "n_ini_guess", "layers", -1, err) : 0;
+}
+
+static int check_domain(
+    const struct config *config, const struct field_reader *reader, struct error *err)
+{
+	double x_min = config->domain.x_min, x_max = config->domain.x_max;
+	double front = config->initial.front;
+	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
+
+	if (x_min >= x_max) {
+		(void)error_set(err, EX_DATAERR, "domain: x_min (%s m) is not below x_max (%s m)",
+		    text_real(x_min, first), text_real(x_max, second));
+		return field_blame(reader, "domain.x_min", "domain.x_max", -1, err);
+	}
+	if (front >= x_min && front <= x_max)
+		return 0;
+	(void)error_set(err, EX_DATAERR, "initial.front: %s m is outside the domain, %s m is its %s",
+	    text_real(front, first), text_real(front < x_min ? x_min : x_max, second),
+	    front < x_min ? "x_min" : "x_max");
+	return field_blame(
+	    reader, "initial.front", front < x_min ? "domain.x_min" : "domain.x_max", -1, err);
+}
+
+static int check_rheology(
+    const struct config *config, const struct field_reader *reader, struct error *err)
+{
+	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
+
+	if (config->rheology.mu_s <= config->rheology.mu_2)
+		return 0;
+	(void)error_set(err, EX_DATAERR, "rheology: mu_s (%s) is above mu_2 (%s)",
+	    text_real(config->rheology.mu_s, first), text_real(config->rheology.mu_2, second));
+	return field_blame(reader, "rheology.mu_s", "rheology.mu_2", -1, err);
+}
+
+static int check_output(
+    const struct config *config, const struct field_reader *reader, struct error *err)
+{
+	const struct real_list *times = &config->output.profiles_at;
+	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
+
+	for (int i = 0; i < times->count; i++)
+		if (times->values[i] > config->time.end) {
+			(void)error_set(err, EX_DATAERR, "output.profiles_at: %s s is after time.end (%s s)",
+			    text_real(times->values[i], first), text_real(config->time.end, second));
+			return field_blame(reader, "output.profiles_at", "time.end", i, err);
+		}
+	return 0;
+}
+
+static int read_tree(struct config *config, const struct field_source *file,
+    const char *const *settings, int count, struct error *err)
+{
+	struct field_reader reader = {.table = &config_table};
+	struct setting *list = NULL;
+	int status = -1;
+
+	memset(config, 0, sizeof *config); /* padding too: equal configs are equal bytes */
+	if (count > 0) {
+		list = calloc((size_t)count, sizeof *list);
+		if (!list)
+			return error_memory(err, (size_t)count * sizeof *list);
+	}
+	if (field_collect(&reader, file, &file->root, err) != 0)
+		goto done;
+	for (int i = 0; i < count; i++)
+		if (collect_setting(&reader, &list[i], settings[i], err) != 0)
+			goto done;
+	if (field_convert(&reader, config, err) == 0 && check_layers(config, &reader, err) == 0 &&
+	    check_domain(config, &reader, err) == 0 && check_rheology(config, &reader, err) == 0 &&
+	    check_output(config, &reader, err) == 0)
+		status = 0;
+done:
+	for (int i = 0; i < count; i++)
+		node_clean(&list[i].source.root);
+	free(list);
+	return status;
+}
+
+int config_read(struct config *config, const char *path, const char *const *settings, int count,
+    struct error *err)
+{
+	struct field_source file = {.name = path};
+	int status = yaml_load(&file.root, path, err);
+
+	if (status == 0)
+		status = read_tree(config, &file, settings, count, err);
+	node_clean(&file.root);
+	return status;
+}
+
+int config_parse(struct config *config, const char *text, size_t length, const char *name,
+    const char *const *settings, int count, struct error *err)
+{
+	struct field_source file = {.name = name};
+	int status = yaml_parse(&file.root, text, length, name, err);
+
+	if (status == 0)
+		status = read_tree(config, &file, settings, count, err);
+	node_clean(&file.root);
+	return status;
+}
+
+void config_print(const struct config *config, struct text *out)
+{
+	field_print(&config_table, config, false, out);
+}
+
+void config_print_reference(struct text *out)
+{
+	text_add(out,
+	    "# Every key of a config, with its default. Generated by `talus check --reference`.\n"
+	    "# Quantities carry units, a bare number is SI, an angle must say deg or rad.\n");
+	field_print_reference(&config_table, out);
+}
+
+int config_hash(const struct config *config, char hash[CONFIG_HASH_SIZE], struct error *err)
+{
+	struct text text = {0};
+
+	field_print(&config_table, config, true, &text);
+	if (text.failed) {
+		(void)error_memory(err, text.capacity);
+		text_clean(&text);
+		return -1;
+	}
+	(void)snprintf(
+	    hash, CONFIG_HASH_SIZE, "%016llx", (unsigned long long)XXH3_64bits(text.data, text.length));
+	text_clean(&text);
+	return 0;
+}
+
+void config_differences(const struct config *a, const struct config *b, struct text *out)
+{
+	field_differences(&config_table, a, b, out);
+}
+
+int config_value(const struct config *config, const char *key, struct text *out, struct error *err)
+{
+	const struct field *field = field_find(&config_table, key);
+
+	if (!field)
+		return field_unknown(&config_table, key, err);
+	if (field->kind == FIELD_GROUP)
+		return error_set(err, EX_DATAERR, "'%s' is a group of keys, not a key with a value", key);
+	field_print_value(field, config, out);
+	return 0;
+}

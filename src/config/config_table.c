@@ -1,0 +1,135 @@
+#include "config/config_table.h"
+
+#include "talus/config.h"
+
+/* A key is the path of its member, but for `operator`, which C++ keeps for itself. */
+#define AT(member) offsetof(struct config, member)
+#define GROUP(key, flags, meaning)                                                                 \
+	{                                                                                              \
+#key, FIELD_GROUP, flags, 0, NULL, NULL, NULL, NULL, meaning                               \
+	}
+#define REAL(key, flags, unit, value, range, meaning)                                              \
+	{                                                                                              \
+#key, FIELD_REAL, flags, AT(key), unit, value, range, NULL, meaning                        \
+	}
+#define REALS(key, flags, unit, value, range, meaning)                                             \
+	{                                                                                              \
+#key, FIELD_REALS, flags, AT(key), unit, value, range, NULL, meaning                       \
+	}
+#define INTEGER(key, flags, value, range, meaning)                                                 \
+	{                                                                                              \
+#key, FIELD_INTEGER, flags, AT(key), NULL, value, range, NULL, meaning                     \
+	}
+#define CHOICE(key, member, flags, value, choices, meaning)                                        \
+	{                                                                                              \
+		key, FIELD_CHOICE, flags, AT(member), NULL, value, NULL, choices, meaning                  \
+	}
+
+/* clang-format off */
+static const char *const models[] = {[MODEL_DRY] = "dry", NULL};
+static const char *const pressures[] = {
+	[PRESSURE_HYDROSTATIC] = "hydrostatic", [PRESSURE_NON_HYDROSTATIC] = "non-hydrostatic", NULL};
+static const char *const boundaries[] = {
+	[BOUNDARY_WALL] = "wall", [BOUNDARY_OUTFLOW] = "outflow", NULL};
+static const char *const shapes[] = {[SHAPE_COLUMN] = "column", NULL};
+static const char *const laws[] = {[LAW_MU_I] = "mu_i", NULL};
+static const char *const wave_speeds[] = {
+	[WAVE_SPEED_FASTEST] = "fastest", [WAVE_SPEED_MEAN] = "mean", NULL};
+static const char *const reconstructions[] = {
+	[RECONSTRUCTION_STATIC] = "static", [RECONSTRUCTION_PRINTED] = "printed", NULL};
+static const char *const methods[] = {[METHOD_BLOCK_GAUSS_SEIDEL] = "block-gauss-seidel", NULL};
+static const char *const operators[] = {
+	[OPERATOR_SYMMETRIC] = "symmetric", [OPERATOR_POINTWISE] = "pointwise", NULL};
+static const char *const starts[] = {
+	[START_ZERO] = "zero", [START_PREVIOUS] = "previous", NULL};
+static const char *const norms[] = {
+	[NORM_L1] = "l1", [NORM_L2] = "l2", [NORM_LINF] = "linf", NULL};
+
+static const struct field fields[] = {
+	CHOICE("model", model, 0, "dry", models,
+		"what flows: dry grains in layers (P1)"),
+	CHOICE("pressure", pressure, 0, "non-hydrostatic", pressures,
+		"whether the vertical acceleration acts on the pressure"),
+	REAL(slope, FIELD_REQUIRED, "rad", "22 deg", "[0 deg, 90 deg)",
+		"angle of the reference plane, positive downhill in +x"),
+	REAL(erodible_bed_thickness, FIELD_REQUIRED, "m", "1.82 mm", "[0, inf)",
+		"grains at rest under and before the initial shape (h_i); 0: a rigid bed"),
+	INTEGER(layers, FIELD_REQUIRED, "10", "[1, 512]",
+		"layers of equal thickness from the bed to the surface (N)"),
+	INTEGER(n_ini_guess, 0, "0", "[0, 511]",
+		"layers of the coarse system behind the first pressure guess; divides layers; 0: none"),
+
+	GROUP(domain, 0, "the grid along the plane"),
+	REAL(domain.x_min, 0, "m", "-0.2 m", NULL, "left end"),
+	REAL(domain.x_max, 0, "m", "3 m", NULL, "right end, beyond x_min"),
+	INTEGER(domain.cells, 0, "640", "[2, 1000000]", "cells of equal width between the ends"),
+	CHOICE("domain.left", domain.left, 0, "wall", boundaries, "what the left end is"),
+	CHOICE("domain.right", domain.right, 0, "outflow", boundaries, "what the right end is"),
+
+	GROUP(initial, 0, "the grains at rest at time 0, above the bed layer"),
+	CHOICE("initial.shape", initial.shape, 0, "column", shapes,
+		"column: one height from the left end to the front"),
+	REAL(initial.height, 0, "m", "0.14 m", "(0, inf)", "height of the column above the bed layer"),
+	REAL(initial.front, 0, "m", "0 m", NULL, "position of the gate, between x_min and x_max"),
+
+	GROUP(grains, 0, "the material"),
+	REAL(grains.diameter, 0, "m", "0.7 mm", "(0, inf)", "grain diameter (d_s)"),
+	REAL(grains.density, 0, "kg/m3", "2500 kg/m3", "(0, inf)", "density of a grain (rho_s)"),
+	REAL(grains.solid_fraction, 0, "1", "0.62", "(0, 1]", "volume share of the grains (phi_s)"),
+
+	GROUP(rheology, 0, "friction of the moving grains"),
+	CHOICE("rheology.law", rheology.law, 0, "mu_i", laws,
+		"mu_i: mu = mu_s + (mu_2 - mu_s) I/(I + i_0), I the inertial number"),
+	REAL(rheology.mu_s, 0, "1", "tan(25.5 deg)", "(0, inf)", "friction coefficient at rest"),
+	REAL(rheology.mu_2, 0, "1", "tan(36 deg)", "(0, inf)",
+		"friction coefficient of fast flow, at least mu_s"),
+	REAL(rheology.i_0, 0, "1", "0.279", "(0, inf)", "inertial number half way between the two"),
+
+	GROUP(regularisation, 0, "the papers' delta: keeps friction finite where nothing moves"),
+	REAL(regularisation.strain_rate, 0, "1/s", "1e-5 1/s", "(0, inf)", "in the viscosity"),
+	REAL(regularisation.velocity, 0, "m/s", "1e-5 m/s", "(0, inf)", "in the bottom friction"),
+
+	GROUP(time, 0, "how far and in what steps"),
+	REAL(time.end, 0, "s", "3 s", "(0, inf)", "simulated time at which the run is complete"),
+	REAL(time.cfl, 0, "1", "0.7", "(0, 1]", "share of the largest stable step that is taken"),
+	CHOICE("time.wave_speed", time.wave_speed, 0, "fastest", wave_speeds,
+		"velocity that limits the step: fastest layer, or mean over the layers (P1 eq. 14)"),
+
+	GROUP(scheme, 0, "readings of the discretisation"),
+	CHOICE("scheme.friction_reconstruction", scheme.friction_reconstruction, 0, "static",
+		reconstructions,
+		"where friction balances the slope in P1 (21): static: only at rest; printed: also in motion"),
+
+	GROUP(pressure_solver, 0, "the linear system of the non-hydrostatic pressure"),
+	CHOICE("pressure_solver.method", pressure_solver.method, 0, "block-gauss-seidel", methods,
+		"block-gauss-seidel: one tridiagonal solve per layer and sweep (P1)"),
+	CHOICE("pressure_solver.operator", pressure_solver.operator_, 0, "symmetric", operators,
+		"discrete operator: symmetric, or pointwise as P1 Appendix A (for its tables)"),
+	CHOICE("pressure_solver.start", pressure_solver.start, 0, "zero", starts,
+		"first guess of the fluctuation where n_ini_guess is 0: zero, or that of the previous step"),
+	CHOICE("pressure_solver.norm", pressure_solver.norm, 0, "l2", norms,
+		"norm of a sweep's increment that stops the iteration"),
+	REAL(pressure_solver.tolerance, 0, "m2/s2", "1e-6 m2/s2", "(0, inf)",
+		"value of that norm at which it stops"),
+	INTEGER(pressure_solver.max_iterations, 0, "20000", "[1, inf)",
+		"sweeps after which the solver has failed"),
+
+	GROUP(output, 0, "what is recorded; does not touch the steps"),
+	REALS(output.profiles_at, 0, "s", "[]", "[0, inf)",
+		"times of the stored profiles, at most time.end"),
+	REAL(output.series_every, 0, "s", "0 s", "[0, inf)",
+		"simulated time between records of the series; 0: every step"),
+	REAL(output.front_threshold, 0, "m", "0.5 mm", "(0, inf)",
+		"thickness above the bed layer where the front is"),
+	REAL(output.static_speed, 0, "m/s", "0.01 m/s", "(0, inf)",
+		"a layer slower than this counts as at rest"),
+
+	GROUP(checkpoint, FIELD_PASSIVE, "how much work a lost machine can cost"),
+	REAL(checkpoint.every, FIELD_PASSIVE, "s", "30 s", "[0, inf)",
+		"wall clock between checkpoints; 0: off"),
+	INTEGER(checkpoint.every_steps, FIELD_PASSIVE, "0", "[0, inf)",
+		"steps between checkpoints; 0: off"),
+};
+/* clang-format on */
+
+const struct field_table config_table = {fields, sizeof fields / sizeof *fields};

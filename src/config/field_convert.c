@@ -1,0 +1,150 @@
+#include <assert.h>
+#include <string.h>
+
+#include "config/field_parts.h"
+#include "config/quantity.h"
+#include "talus/config.h"
+
+static int convert_real(
+    const struct field *field, const char *text, double *value, struct error *err)
+{
+	char shown[EXCERPT];
+
+	TRY(quantity_read(text, field->unit, value, err));
+	return field_check_range(field, text_excerpt(text, shown, sizeof shown), *value, err);
+}
+
+static int convert_integer(
+    const struct field *field, const char *text, int *value, struct error *err)
+{
+	char shown[EXCERPT];
+	size_t sign = *text == '-' || *text == '+';
+
+	(void)text_excerpt(text, shown, sizeof shown);
+	if (!*text)
+		return error_set(err, EX_DATAERR, "the value is missing");
+	if (text_to_integer(text, value))
+		return field_check_range(field, shown, *value, err);
+	if (text[sign] && !text[sign + strspn(text + sign, "0123456789")])
+		return error_set(err, EX_DATAERR, "%s is beyond what an integer can hold", shown);
+	return error_set(err, EX_DATAERR, "%s is not a whole number", shown);
+}
+
+static int convert_choice(
+    const struct field *field, const char *text, int *value, struct error *err)
+{
+	struct text hint = {0};
+	char shown[EXCERPT];
+	const char *nearest = NULL;
+	int best = (int)strlen(text) / 3 + 2;
+
+	if (!*text)
+		return error_set(err, EX_DATAERR, "the value is missing");
+	for (int i = 0; field->choices[i]; i++) {
+		int distance = text_distance(text, field->choices[i]);
+
+		if (distance == 0) {
+			*value = i;
+			return 0;
+		}
+		if (distance < best) {
+			best = distance;
+			nearest = field->choices[i];
+		}
+	}
+	if (nearest)
+		text_addf(&hint, "did you mean '%s'? ", nearest);
+	text_add(&hint, "choices: ");
+	field_list_choices(field, &hint);
+	(void)error_set(err, EX_DATAERR, "'%s' is no choice; %s",
+	    text_excerpt(text, shown, sizeof shown), text_string(&hint));
+	text_clean(&hint);
+	return -1;
+}
+
+static int convert_list(const struct field *field, const struct field_place *place,
+    struct real_list *list, struct error *err)
+{
+	const struct node *node = place->node;
+	const int max = (int)(sizeof list->values / sizeof *list->values);
+
+	if (node->kind != NODE_SEQUENCE)
+		return error_set(
+		    err, EX_DATAERR, "expected a list such as [1, 2], not %s", node_kind_name(node));
+	if (node->count > (size_t)max)
+		return error_set(err, EX_DATAERR, "a list of %zu values; at most %d fit", node->count, max);
+	for (size_t i = 0; i < node->count; i++) {
+		const struct node *item = &node->items[i];
+		char shown[EXCERPT];
+
+		if (item->kind != NODE_SCALAR)
+			(void)error_set(
+			    err, EX_DATAERR, "expected a single value, not %s", node_kind_name(item));
+		else if (convert_real(field, item->text, &list->values[i], err) == 0 && i > 0 &&
+		         list->values[i] <= list->values[i - 1])
+			(void)error_set(err, EX_DATAERR, "%s is not above the value before it",
+			    text_excerpt(item->text, shown, sizeof shown));
+		if (err->code)
+			return field_set_place(place->source, item, err);
+	}
+	list->count = (int)node->count;
+	return 0;
+}
+
+static int convert_value(
+    const struct field *field, const struct field_place *place, void *member, struct error *err)
+{
+	const struct node *node = place->node;
+
+	if (field->kind == FIELD_REALS)
+		return convert_list(field, place, member, err);
+	if (node->kind != NODE_SCALAR)
+		return error_set(err, EX_DATAERR, "expected a single value, not %s", node_kind_name(node));
+	switch (field->kind) {
+	case FIELD_REAL:
+		return convert_real(field, node->text, member, err);
+	case FIELD_INTEGER:
+		return convert_integer(field, node->text, member, err);
+	default:
+		return convert_choice(field, node->text, member, err);
+	}
+}
+
+/* The default of a row as the node that a file would hold. */
+static int convert_default(const struct field *field, void *member, struct error *err)
+{
+	struct node node = {.kind = NODE_SCALAR, .text = (char *)field->value};
+	struct field_place place = {.node = &node};
+
+	if (field->kind == FIELD_REALS) {
+		assert(!strcmp(field->value, "[]"));
+		node = (struct node){.kind = NODE_SEQUENCE};
+	}
+	return convert_value(field, &place, member, err);
+}
+
+int field_convert(const struct field_reader *reader, void *target, struct error *err)
+{
+	for (size_t i = 0; i < reader->table->count; i++) {
+		const struct field *field = &reader->table->fields[i];
+		const struct field_place *place = &reader->places[i];
+		void *member = (char *)target + field->offset;
+
+		if (field->kind == FIELD_GROUP)
+			continue;
+		if (!place->source && field->flags & FIELD_REQUIRED) {
+			(void)error_set(err, EX_DATAERR, "missing key '%s'; for example `%s: %s`", field->name,
+			    field->name, field->value);
+			return field_set_place(reader->all.source, reader->all.node, err);
+		}
+		if (!place->source) {
+			TRY(convert_default(field, member, err));
+			continue;
+		}
+		if (convert_value(field, place, member, err) == 0)
+			continue;
+		(void)error_context(err, "%s", field->name);
+		return err->file[0] ? -1 : field_set_place(place->source, place->node, err);
+	}
+	return 0;
+}

@@ -1,0 +1,26 @@
+/* What the files of the field tables share among themselves: field.c, field_convert.c, field_print.c. */
+#ifndef TALUS_FIELD_PARTS_H
+#define TALUS_FIELD_PARTS_H
+
+#include "config/field.h"
+
+enum { EXCERPT = 80 }; /* bytes of a user's text that a message shows */
+
+/* The key without its groups, and how many groups it stands in. */
+const char *field_leaf(const char *key);
+int field_depth(const char *key);
+
+/* Give an error that is set the place of a node. Returns -1. */
+int field_set_place(const struct field_source *source, const struct node *node, struct error *err);
+
+/* "dry, immersed" */
+void field_list_choices(const struct field *field, struct text *out);
+
+/* Refuse a value that is outside the range of a row; `shown` is its text. */
+int field_check_range(
+    const struct field *field, const char *shown, double value, struct error *err);
+
+/* "above 0 m and at most 1 m" */
+void field_describe_range(const struct field *field, struct text *out);
+
+#endif
