@@ -45,12 +45,12 @@ struct node;
 /* A table as the file asks for it; src/tables gives it its meaning. */
 struct experiment_table {
 	struct term name;
-	const char *title;             /* "": that of the experiment */
-	struct term_list rows;         /* keys whose values make the rows */
-	struct term_list columns;      /* the same for columns; may be empty */
-	struct term_list metrics;      /* what a cell shows */
-	struct term_list at;           /* profile times for the metrics that need one; empty: the last */
-	struct setting_list baseline;  /* makes of a run's config that of the run it is timed against */
+	const char *title;            /* "": that of the experiment */
+	struct term_list rows;        /* keys whose values make the rows */
+	struct term_list columns;     /* the same for columns; may be empty */
+	struct term_list metrics;     /* what a cell shows */
+	struct term_list at;          /* profile times for the metrics that need one; empty: the last */
+	struct setting_list baseline; /* makes of a run's config that of the run it is timed against */
 	struct setting_list reference; /* makes of a run's config that of the exact one */
 	struct setting_list only;      /* runs without these values are left out */
 	const struct node *published;  /* rows of columns of metrics, NULL: none */
@@ -62,7 +62,7 @@ struct experiment {
 	const char *title; /* "" if none */
 	const char *source;
 	int repeat;
-	bool timing; /* one run at a time */
+	bool timing;                 /* one run at a time */
 	struct experiment_run *runs; /* [run_count], every run once, then every run again, ... */
 	size_t run_count;
 	struct experiment_table *tables; /* [table_count] */
@@ -83,16 +83,16 @@ enum { EXPERIMENT_RUNS_MAX = 10000 };
  * whatever its name began with. `overrides` are "key=value" for all runs. Errors: EX_DATAERR with the
  * place in the experiment or the base config, EX_SOFTWARE. Clean in every case. */
 int experiment_read(struct experiment *experiment, const char *path, const char *folder,
-	const char *const *overrides, int count, struct error *err);
+    const char *const *overrides, int count, struct error *err);
 
 void experiment_clean(struct experiment *experiment);
 
 /* The config of `run` with `more` on top. A bad one among `more` is cited with its place. */
 int experiment_vary(const struct experiment *experiment, const struct experiment_run *run,
-	const struct setting_list *more, struct config *config, struct error *err);
+    const struct setting_list *more, struct config *config, struct error *err);
 
 /* The index of the run with this config and repeat; run_count if the experiment has none. */
 int experiment_find(const struct experiment *experiment, const struct config *config, int repeat,
-	size_t *index, struct error *err);
+    size_t *index, struct error *err);
 
 #endif

@@ -27,9 +27,9 @@ enum { TABLE_HEADS_MAX = 12 };
 struct table_column {
 	char *heads[TABLE_HEADS_MAX]; /* [head_count], from the general to the particular */
 	size_t head_count;
-	bool label;    /* names the row; the others hold numbers */
-	bool spread;   /* its cells have one */
-	int decimals;  /* -1: three significant digits */
+	bool label;   /* names the row; the others hold numbers */
+	bool spread;  /* its cells have one */
+	int decimals; /* -1: three significant digits */
 };
 
 struct table {
@@ -54,7 +54,7 @@ struct table_format {
  * makes it again, for its notes. A missing run is no error: see `missing`. EX_DATAERR where the
  * experiment asks for what it cannot have, EX_SOFTWARE. Clean in every case. */
 int table_build(struct table *table, const struct experiment *experiment,
-	const struct experiment_table *wanted, const char *command, struct error *err);
+    const struct experiment_table *wanted, const char *command, struct error *err);
 
 void table_clean(struct table *table);
 

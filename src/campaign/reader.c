@@ -1,12 +1,13 @@
 #include "campaign/reader.h"
 
-#include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "talus/text.h"
+
+enum { EXCERPT = 80 }; /* bytes of a value shown in a message */
 
 int reader_fail(const struct reader *reader, const struct node *node, const char *format, ...)
 {
@@ -17,29 +18,39 @@ int reader_fail(const struct reader *reader, const struct node *node, const char
 	(void)vsnprintf(message, sizeof message, format, args);
 	va_end(args);
 	return error_at(reader->err, EX_DATAERR, reader->path, node->line, node->column, "%s%s%s",
-		node->key ? node->key : "", node->key ? ": " : "", message);
+	    node->key ? node->key : "", node->key ? ": " : "", message);
 }
 
 static int unknown_key(const struct reader *reader, const struct node *item,
-	const struct reader_key *keys, size_t count)
+    const struct reader_key *keys, size_t count)
 {
-	int best = INT_MAX;
-	const char *nearest = "";
+	int best = (int)strlen(item->key) / 3 + 2;
+	const char *nearest = NULL;
+	struct text known = {0};
+	char shown[EXCERPT];
 
 	for (size_t i = 0; i < count; i++) {
 		int distance = text_distance(item->key, keys[i].name);
 
+		text_addf(&known, "%s%s", i ? ", " : "", keys[i].name);
 		if (distance < best) {
 			best = distance;
 			nearest = keys[i].name;
 		}
 	}
-	return error_at(reader->err, EX_DATAERR, reader->path, item->key_line, item->key_column,
-		"unknown key '%s'; the nearest known one is '%s'", item->key, nearest);
+	(void)text_excerpt(item->key, shown, sizeof shown);
+	if (nearest)
+		error_at(reader->err, EX_DATAERR, reader->path, item->key_line, item->key_column,
+		    "unknown key '%s'; did you mean '%s'?", shown, nearest);
+	else
+		error_at(reader->err, EX_DATAERR, reader->path, item->key_line, item->key_column,
+		    "unknown key '%s'; known are: %s", shown, text_string(&known));
+	text_clean(&known);
+	return -1;
 }
 
 int reader_keys(const struct reader *reader, const struct node *node, const struct reader_key *keys,
-	size_t count, void *target)
+    size_t count, void *target)
 {
 	if (node->kind != NODE_MAPPING)
 		return reader_fail(reader, node, "a mapping of keys is wanted here");
@@ -64,21 +75,29 @@ int reader_text(const struct reader *reader, const struct node *node, const char
 	return 0;
 }
 
+static const char *excerpt(const struct node *node, char shown[EXCERPT])
+{
+	return node->kind == NODE_SCALAR ? text_excerpt(node->text, shown, EXCERPT)
+	                                 : node_kind_name(node);
+}
+
 int reader_integer(const struct reader *reader, const struct node *node, int min, int max, int *out)
 {
+	char shown[EXCERPT];
+
 	if (node->kind != NODE_SCALAR || !text_to_integer(node->text, out) || *out < min || *out > max)
-		return reader_fail(reader, node, "%s is not a whole number from %d to %d",
-			node->kind == NODE_SCALAR ? node->text : "this", min, max);
+		return reader_fail(
+		    reader, node, "%s is not a whole number from %d to %d", excerpt(node, shown), min, max);
 	return 0;
 }
 
 int reader_bool(const struct reader *reader, const struct node *node, bool *out)
 {
+	char shown[EXCERPT];
 	bool yes = node->kind == NODE_SCALAR && !strcmp(node->text, "true");
 
 	if (!yes && (node->kind != NODE_SCALAR || strcmp(node->text, "false") != 0))
-		return reader_fail(reader, node, "%s is neither true nor false",
-			node->kind == NODE_SCALAR ? node->text : "this");
+		return reader_fail(reader, node, "%s is neither true nor false", excerpt(node, shown));
 	*out = yes;
 	return 0;
 }
@@ -105,18 +124,36 @@ int reader_terms(const struct reader *reader, const struct node *node, struct te
 	return 0;
 }
 
-static int leaf_add(const struct reader *reader, struct leaf_list *list, char *key,
-	const struct node *node)
+/* Refuse a key that no config has, or that the list has already. */
+static int check_key(const struct reader *reader, const struct leaf_list *list, const char *key,
+    const struct node *node)
+{
+	struct config any = {0};
+	struct text value = {0};
+	struct error refusal = {0};
+	int result = config_value(&any, key, &value, &refusal);
+
+	text_clean(&value);
+	if (result)
+		return error_at(reader->err, refusal.code, reader->path, node->key_line, node->key_column,
+		    "%s", refusal.text);
+	for (size_t i = 0; i < list->count; i++)
+		if (!strcmp(list->items[i].key, key))
+			return error_at(reader->err, EX_DATAERR, reader->path, node->key_line, node->key_column,
+			    "duplicate key '%s'", key);
+	return 0;
+}
+
+/* Takes `key` over. */
+static int leaf_add(
+    const struct reader *reader, struct leaf_list *list, char *key, const struct node *node)
 {
 	struct leaf *items;
 
-	for (size_t i = 0; i < list->count; i++)
-		if (!strcmp(list->items[i].key, key)) {
-			error_at(reader->err, EX_DATAERR, reader->path, node->key_line, node->key_column,
-				"key '%s' stands here twice", key);
-			free(key);
-			return -1;
-		}
+	if (check_key(reader, list, key, node)) {
+		free(key);
+		return -1;
+	}
 	items = realloc(list->items, (list->count + 1) * sizeof *items);
 	if (!items) {
 		free(key);
@@ -127,8 +164,8 @@ static int leaf_add(const struct reader *reader, struct leaf_list *list, char *k
 	return 0;
 }
 
-static int add_leaves(const struct reader *reader, const struct node *node, const char *prefix,
-	struct leaf_list *out)
+static int add_leaves(
+    const struct reader *reader, const struct node *node, const char *prefix, struct leaf_list *out)
 {
 	for (size_t i = 0; i < node->count; i++) {
 		const struct node *item = &node->items[i];
@@ -178,8 +215,8 @@ static void add_value(struct text *out, const struct node *node)
 	text_add(out, "]");
 }
 
-int setting_list_add(struct setting_list *list, const char *key, const struct node *node,
-	struct error *err)
+int setting_list_add(
+    struct setting_list *list, const char *key, const struct node *node, struct error *err)
 {
 	struct setting *items = realloc(list->items, (list->count + 1) * sizeof *items);
 	struct text value = {0};

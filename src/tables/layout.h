@@ -22,16 +22,16 @@ struct label_list {
 /* One number per cell. */
 struct measure {
 	const struct metric *metric;
-	double at;             /* profile time, s; NaN: the last */
-	const char *at_text;   /* as written, NULL: the last */
+	double at;           /* profile time, s; NaN: the last */
+	const char *at_text; /* as written, NULL: the last */
 };
 
 enum { LAYOUT_NOWHERE = -1 };
 
 /* The place of a run. */
 struct place {
-	long row, column;    /* LAYOUT_NOWHERE: not in this table */
-	size_t partner[3];   /* by enum metric_partner: index of the run it is compared with */
+	long row, column;  /* LAYOUT_NOWHERE: not in this table */
+	size_t partner[3]; /* by enum metric_partner: index of the run it is compared with */
 };
 
 struct layout {
@@ -47,7 +47,7 @@ struct layout {
 /* EX_DATAERR with the place in the experiment file where it asks for what cannot be. Clean in every
  * case. */
 int layout_create(struct layout *layout, const struct experiment *experiment,
-	const struct experiment_table *wanted, struct error *err);
+    const struct experiment_table *wanted, struct error *err);
 
 void layout_clean(struct layout *layout);
 
