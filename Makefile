@@ -1,43 +1,65 @@
 # Talus: campaigns of granular-flow simulations. `make help` lists the targets.
 
-CC ?= gcc
+ifeq ($(origin CC),default)
+CC := gcc
+endif
 PKGS := hdf5 yaml-0.1 libxxhash
 BUILD ?= build
 BIN ?= bin
 LIB ?= libtalus.a
+PREFIX ?= /usr/local
 V ?= 0
 Q := $(if $(filter 1,$(V)),,@)
 WERROR ?= $(if $(CI),-Werror)
+JOBS ?= $(shell nproc)
+# A make inside make: as many jobs as there are cores, unless -j was given.
+SUB = --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(JOBS))
 
 # Same bits everywhere: no contraction to fused multiply-add, no -ffast-math, plain x86-64.
 # The two -fno- flags change no result: they let sqrt and selections compile to vector instructions.
 OPT ?= -O3 -ffp-contract=off -fno-math-errno -fno-trapping-math
 WARN := -Wall -Wextra -Wconversion -Wshadow -Wvla -Wstrict-prototypes -Wmissing-prototypes -Wpointer-arith
 CFLAGS_ALL = -std=c11 -D_GNU_SOURCE -g $(OPT) $(WARN) $(WERROR) -Iinclude -Isrc $(PKG_CFLAGS) $(CFLAGS)
-PKG_CFLAGS = $(shell pkg-config --cflags $(PKGS) | sed 's/-I/-isystem /g')
-PKG_LIBS = $(shell pkg-config --libs $(PKGS)) -lm
+# Asked once, when first needed: targets that install the libraries run before they are there.
+PKG_CFLAGS = $(eval PKG_CFLAGS := $(patsubst -I%,-isystem %,$(call pkg_config,--cflags,$(PKGS))))$(PKG_CFLAGS)
+PKG_LIBS = $(eval PKG_LIBS := $(call pkg_config,--libs,$(PKGS)) -lm)$(PKG_LIBS)
+pkg_config = $(if $(shell pkg-config --exists $2 2>/dev/null && echo yes),$(shell pkg-config $1 $2),$(error \
+	missing libraries ($2): run `make deps`))
 
 SOURCES := $(filter-out src/cli/main_%.c,$(wildcard src/*/*.c))
 HEADERS := $(wildcard include/talus/*.h src/*/*.h)
 OBJECTS := $(SOURCES:%.c=$(BUILD)/%.o)
 PROGRAMS := $(BIN)/talus $(BIN)/talus-tables
 TEST_SOURCES := $(wildcard tests/*/test_*.c)
-TESTS := $(TEST_SOURCES:%.c=$(BUILD)/%)
+TEST_PROGRAMS := $(TEST_SOURCES:%.c=$(BUILD)/%)
+CLI_CASES := $(wildcard tests/cli/*.sh)
+BENCHES := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench/bench_*.c))
+EXPERIMENTS := $(patsubst experiments/%.yaml,%,$(wildcard experiments/*.yaml))
+C_FILES := $(wildcard src/*/*.c tests/*/*.c)
+# The tests whose path contains a word of TESTS; all without it.
+SELECTED = $(if $(TESTS),$(sort $(foreach word,$(TESTS),$(foreach test,$1,$(if $(findstring $(word),$(test)),$(test))))),$1)
 
 .DEFAULT_GOAL := all
-.PHONY: all lib
+.PHONY: all lib programs deps quickstart check test asan ubsan valgrind coverage clang tidy format \
+	format-check symbols bench soak tables install clean distclean help $(EXPERIMENTS)
 .SECONDARY:
 .DELETE_ON_ERROR:
 
 ## all: bin/talus, bin/talus-tables and libtalus.a
 all: $(PROGRAMS) $(LIB)
+	@:
 
+## lib: libtalus.a alone
 lib: $(LIB)
+
+## programs: all, and the programs of tests and benches
+programs: all $(TEST_PROGRAMS) $(BENCHES)
+	@:
 
 $(BUILD)/%.o: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	@echo "CC $<"
-	$(Q)$(CC) $(CFLAGS_ALL) -MMD -MP -c -o $@ $<
+	$(Q)$(CC) $(CFLAGS_ALL) $(DEFINES) -MMD -MP -c -o $@ $<
 
 # Objects depend on the command line that made them.
 $(BUILD)/flags: FORCE
@@ -45,7 +67,16 @@ $(BUILD)/flags: FORCE
 	@echo '$(CC) $(CFLAGS_ALL)' | cmp -s - $@ || echo '$(CC) $(CFLAGS_ALL)' > $@
 FORCE:
 
+# What a run file says about its build. Only this object is made again when the revision changes.
+$(BUILD)/src/base/build.o: private DEFINES = -DTALUS_REVISION='"$(REVISION)"' -DTALUS_FLAGS='"$(strip $(OPT) $(CFLAGS))"'
+$(BUILD)/src/base/build.o: $(BUILD)/revision
+REVISION = $(eval REVISION := $(shell git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown))$(REVISION)
+$(BUILD)/revision: FORCE
+	@mkdir -p $(@D)
+	@echo '$(REVISION)' | cmp -s - $@ || echo '$(REVISION)' > $@
+
 $(LIB): $(OBJECTS)
+	@mkdir -p $(@D)
 	@echo "AR $@"
 	$(Q)rm -f $@ && ar rcs $@ $^
 
@@ -61,6 +92,145 @@ $(BIN)/talus-tables: $(BUILD)/src/cli/main_talus_tables.o $(LIB)
 
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(LIB)
 	@echo "LD $@"
-	$(Q)$(CC) $(OPT) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(shell pkg-config --libs cmocka) $(PKG_LIBS)
+	$(Q)$(CC) $(OPT) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(call pkg_config,--libs,cmocka) $(PKG_LIBS)
 
--include $(OBJECTS:.o=.d) $(TESTS:=.d) $(BUILD)/src/cli/main_talus.d $(BUILD)/src/cli/main_talus_tables.d
+# Packages first, then everything that asks about them in a make of its own.
+
+## deps: install the Debian packages that building and testing need, where missing
+deps:
+	@scripts/deps build check
+
+## quickstart: install what is missing, build, run a small campaign and print its table
+quickstart: CAMPAIGN_FLAGS = -j $(JOBS)
+quickstart $(filter-out quickstart,$(EXPERIMENTS)):
+	@scripts/deps build
+	$(Q)$(MAKE) $(SUB) all
+	$(Q)failed=0; $(BIN)/talus campaign run experiments/$@.yaml $(CAMPAIGN_FLAGS) || failed=$$?; \
+	[ $$failed -le 1 ] && $(BIN)/talus-tables experiments/$@.yaml && \
+	echo "run files: results/$@/*/run.h5" && exit $$failed
+
+## tables: every experiment that has tables: run what is not finished, print the tables
+tables:
+	$(Q)for name in $(patsubst experiments/%.yaml,%,$(shell grep -ls '^tables:' experiments/*.yaml)); do \
+		$(MAKE) $(SUB) $$name || exit; done
+
+## check: install what is missing, build and run every test (TESTS=word: those with the word in the path)
+check:
+	@scripts/deps build check
+	$(Q)$(MAKE) $(SUB) test
+
+## test: check without installing anything
+test: programs
+	$(Q)BIN=$(BIN) tests/run-all -j $(JOBS) $(TEST_FLAGS) $(call SELECTED,$(TEST_PROGRAMS) $(CLI_CASES))
+
+
+# Builds of another kind live in folders of their own: $(call variant,NAME,GOAL,FLAGS).
+variant = $(MAKE) $(SUB) $2 BUILD=$(BUILD)/$1 BIN=$(BUILD)/$1/bin LIB=$(BUILD)/$1/libtalus.a \
+	CFLAGS='$(CFLAGS) $3' TEST_FLAGS='-l $1'
+sanitized = SANITIZER=$@ TEST_TIMEOUT=600 $(call variant,$@,test,-fno-omit-frame-pointer $1) \
+	OPT='-O1 $(filter-out -O%,$(OPT))'
+
+## asan: every test under the address and leak sanitizers
+asan:
+	@scripts/deps build check
+	+$(Q)ASAN_OPTIONS=exitcode=99:detect_leaks=1:verify_asan_link_order=0 \
+		$(call sanitized,-fsanitize=address)
+
+## ubsan: every test under the undefined-behaviour sanitizer
+ubsan:
+	@scripts/deps build check
+	+$(Q)UBSAN_OPTIONS=exitcode=99:print_stacktrace=1 \
+		$(call sanitized,-fsanitize=undefined -fno-sanitize-recover=all)
+
+## valgrind: the unit tests under valgrind
+valgrind:
+	@scripts/deps build check valgrind
+	$(Q)TEST_TIMEOUT=1800 $(MAKE) $(SUB) test CLI_CASES= TEST_FLAGS='-l valgrind \
+		-w "valgrind -q --error-exitcode=99 --leak-check=full --errors-for-leak-kinds=definite"'
+
+## coverage: lines and branches of src/ that the tests reach
+coverage:
+	@scripts/deps build check coverage
+	+$(Q)find $(BUILD)/coverage -name '*.gcda' -delete 2>/dev/null; \
+		$(call variant,coverage,test,--coverage) OPT='-O0 $(filter-out -O%,$(OPT))'
+	$(Q)gcovr --root . --filter src/ --print-summary $(BUILD)/coverage
+
+## clang: everything built with clang, warnings as errors
+clang:
+	@scripts/deps build check clang
+	+$(Q)$(call variant,clang,programs) CC=clang WERROR=-Werror
+
+## tidy: clang-tidy on every source that changed since it last passed
+tidy:
+	@scripts/deps build check tidy
+	$(Q)$(MAKE) $(SUB) -k $(C_FILES:%.c=$(BUILD)/tidy/%.log)
+
+$(BUILD)/tidy/%.log: %.c $(HEADERS) .clang-tidy
+	@mkdir -p $(@D)
+	@echo "TIDY $<"
+	$(Q)clang-tidy --quiet $< -- $(CFLAGS_ALL) > $@ 2>&1 || { cat $@; exit 1; }
+
+## format: clang-format on every source
+format:
+	@scripts/deps format
+	$(Q)clang-format -i $(C_FILES) $(HEADERS) $(wildcard tests/*/*.h)
+
+## format-check: fail where `make format` would change something
+format-check:
+	@scripts/deps format
+	$(Q)clang-format --dry-run -Werror $(C_FILES) $(HEADERS) $(wildcard tests/*/*.h)
+
+## symbols: every name that a source exports begins with the noun of its file, its folder or a header there
+symbols: $(OBJECTS)
+	$(Q)nm -A -g --defined-only $^ | awk -v headers='$(HEADERS)' ' \
+		function noun(name) { sub(/[_.].*/, "", name); return name } \
+		function alike(a, b) { return index(a, b) == 1 || index(b, a) == 1 } \
+		BEGIN { \
+			for (i = split(headers, header, " "); i > 0; i--) { \
+				n = split(header[i], part, "/"); known[part[n - 1] "/" noun(part[n])] } } \
+		{ n = split($$1, part, "/"); file = noun(part[n]); folder = part[n - 1]; mine = noun($$3) } \
+		!(alike(file, mine) || alike(folder, mine) || folder == "cli" && mine == "command" || \
+			(folder "/" mine) in known || ("talus/" mine) in known) { \
+			bad = 1; sub(/\.o:.*/, ".c", part[n]); print "src/" folder "/" part[n] ": " $$3 } \
+		END { exit bad }'
+
+## bench: the measured limits, such as the time of one checkpoint
+bench:
+	@scripts/deps build check
+	$(Q)$(MAKE) $(SUB) programs
+	$(Q)mkdir -p $(BUILD)/bench && cd $(BUILD)/bench && \
+		for bench in $(abspath $(BENCHES)); do TALUS_ROOT=$(CURDIR) PATH=$(abspath $(BIN)):$$PATH $$bench || exit; done
+
+## soak: 100 kills over a campaign, and the same bits at its end (SOAK=count)
+SOAK ?= 100
+soak:
+	@scripts/deps build check
+	$(Q)$(MAKE) $(SUB) all
+	$(Q)TALUS_ROOT=$(CURDIR) PATH=$(abspath $(BIN)):$$PATH tests/soak/soak.sh $(SOAK)
+
+## install: programs, library and headers below PREFIX (/usr/local)
+install: all
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib $(DESTDIR)$(PREFIX)/include/talus
+	install $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin
+	install -m 644 $(LIB) $(DESTDIR)$(PREFIX)/lib
+	install -m 644 include/talus/*.h $(DESTDIR)$(PREFIX)/include/talus
+
+## clean: remove what the build made
+clean:
+	rm -rf $(BUILD) $(BIN) $(LIB)
+
+## distclean: clean, and remove what tools left behind; results stay
+distclean: clean
+	rm -rf compile_commands.json .cache
+
+## help: this list
+help:
+	@sed -n 's/^## \([a-z0-9-]*\): /\1\t/p' $(firstword $(MAKEFILE_LIST)) | \
+		awk -F '\t' '{ printf "  %-14s %s\n", $$1, $$2 }'
+	@echo; echo "An experiment runs by its name, which finishes what is not finished and prints its tables:"
+	@for name in $(EXPERIMENTS); do \
+		printf '  %-14s %s\n' $$name "$$(sed -n 's/^title: *//p' experiments/$$name.yaml)"; done
+	@echo; echo "Variables: V=1 shows commands, CC, CFLAGS, OPT, BUILD, BIN, LIB, PREFIX, JOBS, CAMPAIGN_FLAGS"
+
+-include $(OBJECTS:.o=.d) $(TEST_PROGRAMS:=.d) $(BENCHES:=.d)
+-include $(BUILD)/src/cli/main_talus.d $(BUILD)/src/cli/main_talus_tables.d

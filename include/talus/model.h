@@ -71,6 +71,8 @@ struct model {
 	struct axes (*axes)(const struct model_state *state);
 	/* The parts of the exact state; returns how many, at most MODEL_ARRAYS_MAX. */
 	size_t (*arrays)(struct model_state *state, struct array *list);
+	/* To be called after the arrays were overwritten: rebuilds what follows from them. */
+	void (*restored)(struct model_state *state);
 	void (*free)(struct model_state *state); /* NULL-safe */
 };
 

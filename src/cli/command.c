@@ -1,7 +1,11 @@
 #include "cli/command.h"
 
+#include <errno.h>
+#include <getopt.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 int command_fail(const struct error *err)
 {
@@ -22,4 +26,50 @@ int command_usage(const char *command, const char *format, ...)
 	va_end(args);
 	(void)fprintf(stderr, "; see `talus %s --help`\n", command);
 	return EX_USAGE;
+}
+
+int command_option_error(const char *command, int option, char **argv)
+{
+	const char *word = argv[optind - 1];
+
+	if (option == ':')
+		return command_usage(command, "%s needs a value", word);
+	if (!strncmp(word, "--", 2) && optopt)
+		return command_usage(command, "%s: this option takes no value", word);
+	if (!strncmp(word, "--", 2))
+		return command_usage(command, "unknown option %s", word);
+	return command_usage(command, "unknown option -%c", optopt);
+}
+
+int command_settings_add(struct command_settings *settings, const char *text, struct error *err)
+{
+	size_t bytes = ((size_t)settings->count + 1) * sizeof *settings->list;
+	const char **list = realloc(settings->list, bytes);
+
+	if (!list)
+		return error_memory(err, bytes);
+	settings->list = list;
+	list[settings->count++] = text;
+	return 0;
+}
+
+void command_settings_clean(struct command_settings *settings)
+{
+	free(settings->list);
+	*settings = (struct command_settings){0};
+}
+
+int command_print(struct text *text)
+{
+	struct error err = {0};
+
+	if (text->failed) {
+		(void)error_memory(&err, text->capacity);
+	} else if (fwrite(text_string(text), 1, text->length, stdout) != text->length ||
+	           fflush(stdout) != 0) {
+		(void)error_set(&err, EX_IOERR, "standard output cannot be written: %s", strerror(errno));
+		clearerr(stdout);
+	}
+	text_clean(text);
+	return err.code ? command_fail(&err) : 0;
 }

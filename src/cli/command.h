@@ -3,6 +3,7 @@
 #define TALUS_COMMAND_H
 
 #include "talus/error.h"
+#include "talus/text.h"
 
 struct command {
 	const char *name;
@@ -16,5 +17,26 @@ int command_fail(const struct error *err);
 /* Print "talus COMMAND: message" and the way out to stderr; return EX_USAGE. */
 int command_usage(const char *command, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+<<<<<<< HEAD
+=======
+
+/* Long options in the manner of getopt_long; start the short ones with ":" and leave the messages to
+ * command_option_error, which takes getopt_long's ':' or '?' and returns EX_USAGE. */
+int command_option_error(const char *command, int option, char **argv);
+
+/* The texts of a repeated --set, in order. Empty is all zeros; the texts belong to argv. */
+struct command_settings {
+	const char **list;
+	int count;
+};
+
+/* Add one; EX_SOFTWARE out of memory. `list` is freed by command_settings_clean. */
+int command_settings_add(struct command_settings *settings, const char *text, struct error *err);
+void command_settings_clean(struct command_settings *settings);
+
+/* Write `text` to stdout now and empty it. Returns 0, or the exit code after a message: EX_IOERR where
+ * stdout cannot be written, EX_SOFTWARE where the text ran out of memory. */
+int command_print(struct text *text);
+>>>>>>> config
 
 #endif

@@ -13,7 +13,7 @@ static void print_help(FILE *stream)
 	                      "usage: talus COMMAND [ARGUMENT]...\n"
 	                      "example: talus run configs/granular-collapse.yaml\n\n"
 	                      "commands:\n");
-	for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
+	for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
 		(void)fprintf(stream, "  %-10s %s\n", commands[i]->name, commands[i]->summary);
 	(void)fprintf(
 	    stream, "\n`talus COMMAND --help` tells more; `talus --version` tells the build.\n");
@@ -29,7 +29,7 @@ int main(int argc, char **argv)
 		print_help(stdout);
 		return 0;
 	}
-	for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
+	for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
 		if (!strcmp(argv[1], commands[i]->name))
 			return commands[i]->main(argc - 1, argv + 1);
 	(void)fprintf(stderr, "talus: unknown command '%s'; see `talus help`\n", argv[1]);

@@ -18,8 +18,10 @@ struct setting {
 static int parse_setting(
     struct setting *setting, const char *key, const char *value, struct error *err)
 {
-	if (!value[strspn(value, " \t")])
-		return error_at(err, EX_DATAERR, setting->name, 0, 0, "%s: the value is missing", key);
+	if (!value[strspn(value, " \t")]) { /* no YAML document at all */
+		setting->source.root = (struct node){.kind = NODE_SCALAR, .text = strdup("")};
+		return setting->source.root.text ? 0 : error_memory(err, 1);
+	}
 	if (yaml_parse(&setting->source.root, value, strlen(value), setting->name, err) != 0) {
 		err->line = err->column = 0; /* of the value, which nobody sees as a file */
 		return error_context(err, "%s", key);

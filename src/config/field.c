@@ -34,9 +34,9 @@ int field_depth(const char *key)
 
 /* The key that was probably meant: one a few letters off at the same depth, or one of the same name
  * elsewhere; else NULL. */
-static const char *nearest_key(const struct field_table *table, const char *key)
+static const struct field *nearest_key(const struct field_table *table, const char *key)
 {
-	const char *nearest = NULL;
+	const struct field *nearest = NULL;
 	size_t length = strlen(field_leaf(key));
 	int best = length < 6 ? 3 : (int)(length / 3) + 2;
 
@@ -46,12 +46,12 @@ static const char *nearest_key(const struct field_table *table, const char *key)
 
 		if (field_depth(name) == field_depth(key) && distance < best) {
 			best = distance;
-			nearest = name;
+			nearest = &table->fields[i];
 		}
 	}
 	for (size_t i = 0; i < table->count && !nearest; i++)
 		if (!strcmp(field_leaf(table->fields[i].name), field_leaf(key)))
-			nearest = table->fields[i].name;
+			nearest = &table->fields[i];
 	return nearest;
 }
 
@@ -63,7 +63,7 @@ static void list_siblings(const struct field_table *table, const char *key, stru
 	for (size_t i = 0; i < table->count; i++) {
 		const char *name = table->fields[i].name;
 
-		if (!strncmp(name, key, prefix) && !strchr(name + prefix, '.'))
+		if (field_depth(name) == field_depth(key) && !strncmp(name, key, prefix))
 			text_addf(out, "%s%s", out->length > listed ? ", " : "", name + prefix);
 	}
 	if (out->length == listed && prefix > 0)
@@ -72,15 +72,17 @@ static void list_siblings(const struct field_table *table, const char *key, stru
 
 int field_unknown(const struct field_table *table, const char *key, struct error *err)
 {
-	const char *nearest = nearest_key(table, key);
+	const struct field *nearest = nearest_key(table, key);
 	struct text known = {0};
 	char shown[EXCERPT];
 
 	(void)text_excerpt(key, shown, sizeof shown);
 	if (nearest)
-		return error_set(err, EX_DATAERR, "unknown key '%s'; did you mean '%s'?", shown, nearest);
+		return error_set(
+		    err, EX_DATAERR, "unknown key '%s'; did you mean '%s'?", shown, nearest->name);
 	list_siblings(table, key, &known);
-	(void)error_set(err, EX_DATAERR, "unknown key '%s'; known are: %s", shown, text_string(&known));
+	(void)error_set(
+	    err, EX_DATAERR, "unknown key '%s'; known keys are %s", shown, text_string(&known));
 	text_clean(&known);
 	return -1;
 }

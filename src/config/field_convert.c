@@ -52,11 +52,10 @@ static int convert_choice(
 			nearest = field->choices[i];
 		}
 	}
-	if (nearest)
-		text_addf(&hint, "did you mean '%s'? ", nearest);
-	text_add(&hint, "choices: ");
 	field_list_choices(field, &hint);
-	(void)error_set(err, EX_DATAERR, "'%s' is no choice; %s",
+	if (nearest)
+		text_addf(&hint, "; did you mean '%s'?", nearest);
+	(void)error_set(err, EX_DATAERR, "'%s' is not one of %s",
 	    text_excerpt(text, shown, sizeof shown), text_string(&hint));
 	text_clean(&hint);
 	return -1;

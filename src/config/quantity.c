@@ -116,6 +116,7 @@ static size_t number_length(const char *text, size_t *mantissa)
 	size_t sign = *text == '-' || *text == '+', n = sign + strspn(text + sign, digits), more = 0;
 	size_t count = n - sign;
 
+	*mantissa = 0;
 	if (text[n] == '.') {
 		more = strspn(text + n + 1, digits);
 		n += 1 + more;
@@ -160,7 +161,7 @@ static int read_tangent(const char *text, const char *argument, double *value, s
 {
 	char angle[QUANTITY_SIZE];
 	size_t length = strlen(argument);
-	double radians;
+	double radians = 0;
 
 	if (length == 0 || argument[length - 1] != ')')
 		return error_set(err, EX_DATAERR, "%s: the bracket is not closed at the end", text);
@@ -187,14 +188,14 @@ static int trim(const char *text, char buffer[QUANTITY_SIZE], struct error *err)
 	return 0;
 }
 
-int quantity_read(const char *string, const char *unit, double *value, struct error *err)
+int quantity_read(const char *given, const char *unit, double *value, struct error *err)
 {
-	char text[QUANTITY_SIZE];
+	char text[QUANTITY_SIZE] = "";
 	const char *name;
 	size_t mantissa, length;
-	const struct unit *given;
+	const struct unit *row;
 
-	TRY(trim(string, text, err));
+	TRY(trim(given, text, err));
 	if (!strcmp(unit, "1") && !strncmp(text, "tan(", 4))
 		return read_tangent(text, text + 4, value, err);
 	length = number_length(text, &mantissa);
@@ -202,12 +203,12 @@ int quantity_read(const char *string, const char *unit, double *value, struct er
 		return error_set(err, EX_DATAERR, "%s is not a finite decimal number", text);
 	name = text + length + strspn(text + length, " \t");
 	if (!*name && !strcmp(unit, "rad"))
-		return error_set(
-		    err, EX_DATAERR, "%s is no angle; write %s deg or %s rad", text, text, text);
-	given = unit_find(*name || !strcmp(unit, "1") ? name : unit);
-	if (!given || strcmp(given->si, unit) != 0)
+		return error_set(err, EX_DATAERR,
+		    "%s has no unit; an angle must say deg or rad, as in %s deg", text, text);
+	row = unit_find(*name || !strcmp(unit, "1") ? name : unit);
+	if (!row || strcmp(row->si, unit) != 0)
 		return refuse_unit(text, name, unit, err);
-	return scale(text, mantissa, given, value, err);
+	return scale(text, mantissa, row, value, err);
 }
 
 void quantity_print(double value, const char *unit, struct text *out)

@@ -119,9 +119,13 @@ static struct node *append(struct loader *loader, struct node *parent, yaml_mark
 	return &items[parent->count++];
 }
 
+struct key {
+	const struct node *node;
+};
+
 static int compare_keys(const void *a, const void *b)
 {
-	const struct node *x = *(const struct node *const *)a, *y = *(const struct node *const *)b;
+	const struct node *x = ((const struct key *)a)->node, *y = ((const struct key *)b)->node;
 	int order = strcmp(x->key, y->key);
 
 	return order ? order : (x > y) - (x < y);
@@ -130,8 +134,9 @@ static int compare_keys(const void *a, const void *b)
 /* Sorted, so that a file of 100,000 keys is no trap. The first repetition in the text is reported. */
 static int check_duplicates(struct loader *loader, const struct node *mapping)
 {
-	const struct node **sorted, *first = NULL, *again = NULL;
-	char key[EXCERPT];
+	const struct node *first = NULL, *again = NULL;
+	struct key *sorted;
+	char shown[EXCERPT];
 
 	if (mapping->count < 2)
 		return 0;
@@ -139,19 +144,20 @@ static int check_duplicates(struct loader *loader, const struct node *mapping)
 	if (!sorted)
 		return error_memory(loader->err, mapping->count * sizeof *sorted);
 	for (size_t i = 0; i < mapping->count; i++)
-		sorted[i] = &mapping->items[i];
+		sorted[i].node = &mapping->items[i];
 	qsort(sorted, mapping->count, sizeof *sorted, compare_keys);
 	for (size_t i = 1; i < mapping->count; i++)
-		if (!strcmp(sorted[i - 1]->key, sorted[i]->key) && (!again || sorted[i] < again)) {
-			first = sorted[i - 1];
-			again = sorted[i];
+		if (!strcmp(sorted[i - 1].node->key, sorted[i].node->key) &&
+		    (!again || sorted[i].node < again)) {
+			first = sorted[i - 1].node;
+			again = sorted[i].node;
 		}
 	free(sorted);
 	if (!again)
 		return 0;
 	return error_at(loader->err, EX_DATAERR, loader->name, again->key_line, again->key_column,
-	    "duplicate key '%s'; it is already on line %d", text_excerpt(again->key, key, sizeof key),
-	    first->key_line);
+	    "duplicate key '%s'; it is already on line %d",
+	    text_excerpt(again->key, shown, sizeof shown), first->key_line);
 }
 
 static int read_node(
@@ -304,33 +310,4 @@ done:
 	free(text);
 	(void)fclose(file);
 	return status;
-}
-
-void node_clean(struct node *node)
-{
-	for (size_t i = 0; i < node->count; i++)
-		node_clean(&node->items[i]);
-	free(node->items);
-	free(node->text);
-	free(node->key);
-	*node = (struct node){0};
-}
-
-const struct node *node_find(const struct node *mapping, const char *key)
-{
-	for (size_t i = 0; i < mapping->count; i++)
-		if (mapping->items[i].key && !strcmp(mapping->items[i].key, key))
-			return &mapping->items[i];
-	return NULL;
-}
-
-const char *node_kind_name(const struct node *node)
-{
-	static const char *const names[] = {
-	    [NODE_SCALAR] = "a single value",
-	    [NODE_SEQUENCE] = "a list",
-	    [NODE_MAPPING] = "a group of keys",
-	};
-
-	return names[node->kind];
 }

@@ -194,8 +194,8 @@ static double time_step(const struct model_state *s)
 			speed = fmax(speed, fabs(u));
 		}
 		lambda = (s->par.fastest ? speed : fabs(sum) / s->layers) + sqrt(s->par.gc * s->h[i]);
-		if (isnan(lambda))
-			return lambda;
+		if (isnan(sum + lambda)) /* fmax passes over a NaN */
+			return NAN;
 		fastest = lambda > fastest ? lambda : fastest;
 	}
 	return s->par.cfl * s->grid.dx / fastest;
@@ -253,8 +253,6 @@ static size_t arrays(struct model_state *s, struct array *list)
 	list[i++] = (struct array){"h", s->h, {1, stride}};
 	list[i++] = (struct array){"hu", s->U, {n, stride}};
 	list[i++] = (struct array){"hw", s->W, {n, stride}};
-	list[i++] = (struct array){"u", s->u, {n, stride}};
-	list[i++] = (struct array){"w", s->w, {n, stride}};
 	list[i++] = (struct array){"q", s->q, {n, faces}};
 	list[i++] = (struct array){"dq", s->dq, {n, faces}};
 	list[i++] = (struct array){"mass", s->mass, {1, 2}};
@@ -275,5 +273,6 @@ const struct model dry_model = {
     .profile = dry_profile,
     .axes = axes,
     .arrays = arrays,
+	.restored = dry_velocities,
     .free = destroy,
 };

@@ -54,52 +54,24 @@ static void gather(const struct pressure_system *system, int a, double *restrict
 		           (al[f] * up[f - 1] + ad[f] * up[f] + au[f] * up[f + 1]);
 }
 
-/* Thomas elimination from both ends at once towards the middle row: the same work as from one end, in
- * two independent chains that the processor overlaps. The solution replaces `right`. */
+/* The Thomas algorithm along x for layer a. The solution replaces `right`. */
 static void solve_layer(
     const struct pressure_system *system, int a, double *restrict right, double *restrict ratio)
 {
 	size_t row = pressure_system_row(system, a);
-	const double *restrict lower = system->lower + row, *restrict diagonal = system->diagonal + row,
-	                       *restrict upper = system->upper + row;
-	int n = system->faces, middle = n / 2, i = 0, j = n - 1;
-	double left_ratio = 0, left_value = 0, right_ratio = 0, right_value = 0, pivot;
+	const double *restrict lower = system->lower + row;
+	const double *restrict diagonal = system->diagonal + row;
+	const double *restrict upper = system->upper + row;
+	double last_ratio = 0, last = 0;
 
-	/* rows 0..middle-1 from the left, rows n-1..middle+1 from the right */
-	for (; i < middle && j > middle; i++, j--) {
-		double left_pivot = 1 / (diagonal[i] - lower[i] * left_ratio);
-		double right_pivot = 1 / (diagonal[j] - upper[j] * right_ratio);
+	for (int f = 0; f < system->faces; f++) {
+		double pivot = diagonal[f] - lower[f] * last_ratio;
 
-		left_value = (right[i] - lower[i] * left_value) * left_pivot;
-		left_ratio = upper[i] * left_pivot;
-		right_value = (right[j] - upper[j] * right_value) * right_pivot;
-		right_ratio = lower[j] * right_pivot;
-		right[i] = left_value;
-		ratio[i] = left_ratio;
-		right[j] = right_value;
-		ratio[j] = right_ratio;
+		last = right[f] = (right[f] - lower[f] * last) / pivot;
+		last_ratio = ratio[f] = upper[f] / pivot;
 	}
-	for (; i < middle; i++) {
-		pivot = 1 / (diagonal[i] - lower[i] * left_ratio);
-		left_value = right[i] = (right[i] - lower[i] * left_value) * pivot;
-		left_ratio = ratio[i] = upper[i] * pivot;
-	}
-	for (; j > middle; j--) {
-		pivot = 1 / (diagonal[j] - upper[j] * right_ratio);
-		right_value = right[j] = (right[j] - upper[j] * right_value) * pivot;
-		right_ratio = ratio[j] = lower[j] * pivot;
-	}
-	right[middle] = (right[middle] - lower[middle] * left_value - upper[middle] * right_value) /
-	                (diagonal[middle] - lower[middle] * left_ratio - upper[middle] * right_ratio);
-	left_value = right_value = right[middle];
-	for (i = middle - 1, j = middle + 1; i >= 0 && j < n; i--, j++) {
-		left_value = right[i] -= ratio[i] * left_value;
-		right_value = right[j] -= ratio[j] * right_value;
-	}
-	for (; i >= 0; i--)
-		left_value = right[i] -= ratio[i] * left_value;
-	for (; j < n; j++)
-		right_value = right[j] -= ratio[j] * right_value;
+	for (int f = system->faces - 2; f >= 0; f--)
+		last = right[f] -= ratio[f] * last;
 }
 
 /* Put the solution of a layer in place and add its increment to the error measure of the sweep. Four

@@ -1,0 +1,524 @@
+/* The dry model as a whole: what it conserves, where it rests, and how it fails. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "dry/dry.h"
+
+static const char column[] = "slope: 22 deg\n"
+							 "erodible_bed_thickness: 1.82 mm\n"
+							 "layers: 4\n"
+							 "domain: {x_min: -0.2 m, x_max: 1.4 m, cells: 160}\n"
+							 "time: {end: 0.3 s, cfl: 0.5}\n";
+
+static struct config read_config(const char *const *settings, int count)
+{
+	struct config config;
+	struct error err = {0};
+
+	if (config_parse(&config, column, strlen(column), "column", settings, count, &err))
+		fail_msg("%s", err.text);
+	return config;
+}
+
+static struct model_state *create(const struct config *config)
+{
+	struct model_state *s = NULL;
+	struct error err = {0};
+
+	if (dry_model.create(config, &s, &err))
+		fail_msg("%s", err.text);
+	return s;
+}
+
+/* Advance to time.end; fails the test when a step fails. Returns the steps. */
+static int advance(struct model_state *s, double end)
+{
+	struct error err = {0};
+	double t = 0;
+	int steps = 0;
+
+	while (t < end) {
+		double dt = fmin(dry_model.time_step(s), end - t);
+
+		if (dry_model.step(s, dt, &err))
+			fail_msg("step %d: %s", steps, err.text);
+		t = dt == end - t ? end : t + dt;
+		steps++;
+	}
+	return steps;
+}
+
+static size_t series_index(const char *name)
+{
+	for (size_t i = 0; i < dry_model.series_count; i++)
+		if (!strcmp(dry_model.series[i].name, name))
+			return i;
+	fail_msg("no series %s", name);
+	return 0;
+}
+
+static double observed(const struct model_state *s, const char *name)
+{
+	double values[DRY_SERIES_COUNT];
+
+	dry_model.observe(s, values);
+	return values[series_index(name)];
+}
+
+#define CASE(...)                                                                                  \
+	{                                                                                              \
+		(const char *const[]){__VA_ARGS__}, (int)(sizeof((const char *const[]){__VA_ARGS__}) /     \
+											  sizeof(char *))                                      \
+	}
+
+/* Combinations that every promise below is held against. */
+static const struct {
+	const char *const *settings;
+	int count;
+} cases[] = {
+	CASE("layers=4"),
+	CASE("layers=1"),
+	CASE("layers=2", "pressure_solver.operator=pointwise"),
+	CASE("pressure=hydrostatic"),
+	CASE("pressure=hydrostatic", "layers=1"),
+	CASE("n_ini_guess=2", "pressure_solver.start=previous"),
+	CASE("scheme.friction_reconstruction=printed", "time.wave_speed=mean"),
+	CASE("slope=0 deg", "domain.right=wall"),
+	CASE("slope=0 deg", "domain.left=outflow"),
+	CASE("erodible_bed_thickness=0"),
+	CASE("erodible_bed_thickness=0", "slope=0 deg", "layers=10"),
+	CASE("erodible_bed_thickness=0", "layers=1", "pressure=hydrostatic"),
+	CASE("erodible_bed_thickness=0", "layers=2", "domain.x_max=0.4", "domain.cells=60"),
+	CASE("domain.cells=7", "domain.right=wall"),
+	CASE("domain.cells=2", "domain.right=wall", "initial.front=0.5 m"),
+};
+
+static void mass_and_outflow_are_constant_to_rounding(void **state)
+{
+	(void)state;
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+		struct config config = read_config(cases[i].settings, cases[i].count);
+		struct model_state *s = create(&config);
+		double before = observed(s, "mass"), after;
+
+		advance(s, config.time.end);
+		after = observed(s, "mass") + observed(s, "mass_outflow");
+		/* rounding of a few hundred additions per step and cell: the promise is 1e-12 */
+		assert_true(fabs(after - before) <= 1e-12 * before);
+		dry_model.free(s);
+	}
+}
+
+static void mass_leaves_through_an_outflow_only(void **state)
+{
+	static const char *const open[] = {"domain.x_max=0.2", "domain.cells=40"};
+	static const char *const closed[] = {
+		"domain.x_max=0.2", "domain.cells=40", "domain.right=wall"};
+	struct config config = read_config(open, 2);
+	struct model_state *s = create(&config);
+
+	(void)state;
+	advance(s, 0.3);
+	assert_true(observed(s, "mass_outflow") > 0.05 * observed(s, "mass"));
+	dry_model.free(s);
+	config = read_config(closed, 3);
+	s = create(&config);
+	advance(s, 0.3);
+	assert_true(observed(s, "mass_outflow") == 0);
+	dry_model.free(s);
+}
+
+static void the_energy_never_rises(void **state)
+{
+	struct error err = {0};
+
+	(void)state;
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+		struct config config = read_config(cases[i].settings, cases[i].count);
+		struct model_state *s = create(&config);
+		double first = observed(s, "energy"), last = first, rise = 0;
+
+		for (double t = 0; t < config.time.end;) {
+			double dt = dry_model.time_step(s), now;
+
+			assert_int_equal(dry_model.step(s, dt, &err), 0);
+			now = observed(s, "energy");
+			if (config.domain.left == BOUNDARY_WALL)
+				assert_true(now - last <= 1e-6 * first); /* P1 Theorem 1, up to regularised creep */
+			rise += now > last ? now - last : 0;
+			last = now;
+			t += dt;
+		}
+		if (config.domain.left == BOUNDARY_WALL)
+			assert_true(rise <= 1e-3 * first);
+		dry_model.free(s);
+	}
+}
+
+static void the_front_runs_downhill_and_farther_on_a_steeper_slope(void **state)
+{
+	double front[3];
+	static const char *const slopes[] = {"slope=0 deg", "slope=10 deg", "slope=22 deg"};
+
+	(void)state;
+	for (int i = 0; i < 3; i++) {
+		struct config config = read_config(&slopes[i], 1);
+		struct model_state *s = create(&config);
+
+		advance(s, config.time.end);
+		front[i] = observed(s, "front_position");
+		dry_model.free(s);
+	}
+	assert_true(front[0] > 0.1);
+	assert_true(front[1] > front[0] + 0.01);
+	assert_true(front[2] > front[1] + 0.01);
+}
+
+static void a_bed_below_its_angle_of_repose_stays(void **state)
+{
+	static const char *const rest[] = {"initial.height=1e-9 m", "slope=25 deg"};
+	/* with frozen viscosity a resting bed starts geometrically: give it steps to do so */
+	static const char *const flows[] = {"initial.height=1e-9 m", "slope=26.5 deg", "time.cfl=0.01"};
+	struct config config = read_config(rest, 2);
+	struct model_state *s = create(&config);
+
+	(void)state;
+	advance(s, 0.3);
+	/* regularised creep is of the order of delta */
+	assert_true(observed(s, "max_speed") < 10 * config.regularisation.velocity);
+	dry_model.free(s);
+	config = read_config(flows, 3);
+	s = create(&config);
+	advance(s, 0.3);
+	assert_true(observed(s, "max_speed") > 100 * config.regularisation.velocity);
+	dry_model.free(s);
+}
+
+static void the_projection_leaves_no_divergence(void **state)
+{
+	static const char *const tight[] = {"pressure_solver.tolerance=1e-12"};
+	struct config config = read_config(tight, 1);
+	struct model_state *s = create(&config);
+	double before = 0, after = 0;
+	struct pressure_system *system = &s->full.system;
+	size_t count = (size_t)system->layers * (size_t)system->faces;
+	struct pressure_input input = {&s->grid, s->layers, 1e-3, s->h, s->b, s->u, s->w, s->dry,
+		s->face};
+
+	(void)state;
+	advance(s, 0.05);
+	dry_friction(s, 1e-3);
+	dry_transport(s, 1e-3);
+	dry_velocities(s);
+	operator_symmetric.assemble(&input, system);
+	for (size_t k = 0; k < count; k++)
+		before = fmax(before, fabs(system->rhs[k]));
+	struct error err = {0};
+	assert_int_equal(dry_pressure(s, 1e-3, &err), 0);
+	dry_velocities(s);
+	operator_symmetric.assemble(&input, system);
+	for (size_t k = 0; k < count; k++)
+		after = fmax(after, fabs(system->rhs[k]));
+	/* the tolerance on the increment times the size of the matrix entries, about 1e4 */
+	assert_true(after < 1e-6 * before);
+	dry_model.free(s);
+}
+
+static double noise(unsigned *seed)
+{
+	*seed = *seed * 1664525u + 1013904223u;
+	return (double)(*seed >> 8) / (1 << 24) - 0.5;
+}
+
+/* y . A x must be the sum over the cells of (T x . T y)/h, with T as the force is really applied. */
+static void the_symmetric_operator_is_the_adjoint_of_the_force(void **state)
+{
+	struct config config = read_config(NULL, 0);
+	struct model_state *s = create(&config);
+	struct pressure_system *system = &s->full.system;
+	size_t faces = (size_t)s->grid.faces, rows = (size_t)s->layers * s->grid.stride;
+	size_t count = (size_t)s->layers * faces;
+	double *x = calloc(count, sizeof *x), *y = calloc(count, sizeof *y);
+	double *force = calloc(2 * rows, sizeof *force), expected = 0, found = 0;
+	unsigned seed = 1;
+
+	(void)state;
+	assert_non_null(x);
+	assert_non_null(y);
+	assert_non_null(force);
+	advance(s, 0.1);
+	for (int i = 1; i <= s->grid.cells; i++)
+		s->b[i] = 0.01 * sin(0.1 * i);
+	grid_fill_even(&s->grid, s->b);
+	struct pressure_input input = {&s->grid, s->layers, 1, s->h, s->b, s->u, s->w, s->dry, s->face};
+	operator_symmetric.assemble(&input, system);
+	for (size_t k = 0; k < count; k++) {
+		x[k] = s->dry[k % faces] ? 0 : noise(&seed);
+		y[k] = s->dry[k % faces] ? 0 : noise(&seed);
+	}
+	memset(s->U, 0, rows * sizeof *s->U);
+	memset(s->W, 0, rows * sizeof *s->W);
+	dry_add_pressure_force(s, x, 1);
+	memcpy(force, s->U, rows * sizeof *force);
+	memcpy(force + rows, s->W, rows * sizeof *force);
+	memset(s->U, 0, rows * sizeof *s->U);
+	memset(s->W, 0, rows * sizeof *s->W);
+	dry_add_pressure_force(s, y, 1);
+	for (size_t k = 0; k < rows; k++) {
+		size_t i = k % s->grid.stride;
+
+		if (i > 0 && i <= (size_t)s->grid.cells)
+			expected += (force[k] * s->U[k] + force[rows + k] * s->W[k]) / s->h[i];
+	}
+	memset(system->rhs, 0, count * sizeof *system->rhs);
+	for (int a = 0; a < s->layers; a++)
+		memcpy(pressure_system_x(system, a), x + (size_t)a * faces, faces * sizeof *x);
+	for (int a = 0; a < s->layers; a++)
+		for (size_t f = 0; f < faces; f++) {
+			size_t k = (size_t)a * faces + f;
+			const double *here = pressure_system_x(system, a) + f;
+			const double *down = here - system->x_stride, *up = here + system->x_stride;
+
+			found += y[k] *
+				(system->lower[k] * here[-1] + system->diagonal[k] * here[0] +
+					system->upper[k] * here[1] + system->below_lower[k] * down[-1] +
+					system->below_diagonal[k] * down[0] + system->below_upper[k] * down[1] +
+					system->above_lower[k] * up[-1] + system->above_diagonal[k] * up[0] +
+					system->above_upper[k] * up[1]);
+		}
+	assert_true(fabs(found - expected) <= 1e-10 * fabs(expected));
+	free(x);
+	free(y);
+	free(force);
+	dry_model.free(s);
+}
+
+/* Two discretisations of one equation: their flows come together as the grid is refined. */
+static void the_two_operators_agree_more_on_a_finer_grid(void **state)
+{
+	double distance[2];
+
+	(void)state;
+	for (int fine = 0; fine < 2; fine++) {
+		const char *settings[] = {fine ? "domain.cells=320" : "domain.cells=80",
+			"pressure_solver.operator=symmetric", "pressure_solver.tolerance=1e-9",
+			"time.end=0.2 s"};
+		double sum = 0, scale = 0;
+		struct model_state *s[2];
+
+		for (int i = 0; i < 2; i++) {
+			settings[1] = i ? "pressure_solver.operator=pointwise"
+							: "pressure_solver.operator=symmetric";
+			struct config config = read_config(settings, 4);
+			s[i] = create(&config);
+			advance(s[i], config.time.end);
+		}
+		for (int i = 1; i <= s[0]->grid.cells; i++) {
+			sum += fabs(s[0]->h[i] - s[1]->h[i]);
+			scale += s[0]->h[i];
+		}
+		distance[fine] = sum / scale;
+		dry_model.free(s[0]);
+		dry_model.free(s[1]);
+	}
+	assert_true(distance[0] < 0.05);
+	assert_true(distance[1] < 0.5 * distance[0]);
+}
+
+static void a_coarse_guess_changes_the_iterations_and_not_the_flow(void **state)
+{
+	static const char *const plain[] = {"layers=10", "pressure_solver.tolerance=1e-9"};
+	static const char *const guess[] = {
+		"layers=10", "pressure_solver.tolerance=1e-9", "n_ini_guess=5"};
+	struct config a = read_config(plain, 2), b = read_config(guess, 3);
+	struct model_state *s = create(&a), *r = create(&b);
+	double iterations[2] = {0};
+	struct error err = {0};
+
+	(void)state;
+	for (int k = 0; k < 40; k++) {
+		assert_int_equal(dry_model.step(s, 1e-3, &err), 0);
+		assert_int_equal(dry_model.step(r, 1e-3, &err), 0);
+		iterations[0] += observed(s, "pressure_iterations");
+		iterations[1] += observed(r, "pressure_iterations");
+		assert_true(observed(s, "coarse_iterations") == 0);
+		assert_true(observed(r, "coarse_iterations") > 0);
+	}
+	assert_true(iterations[1] < 0.9 * iterations[0]);
+	for (int i = 1; i <= s->grid.cells; i++)
+		assert_true(fabs(s->h[i] - r->h[i]) < 1e-6);
+	dry_model.free(s);
+	dry_model.free(r);
+}
+
+static void two_runs_have_the_same_bits(void **state)
+{
+	(void)state;
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+		struct config config = read_config(cases[i].settings, cases[i].count);
+		struct model_state *s = create(&config), *r = create(&config);
+		struct array a[MODEL_ARRAYS_MAX], b[MODEL_ARRAYS_MAX];
+		size_t count;
+
+		advance(s, config.time.end);
+		advance(r, config.time.end);
+		count = dry_model.arrays(s, a);
+		assert_int_equal(dry_model.arrays(r, b), count);
+		for (size_t k = 0; k < count; k++)
+			assert_memory_equal(
+				a[k].data, b[k].data, a[k].extent[0] * a[k].extent[1] * sizeof(double));
+		dry_model.free(s);
+		dry_model.free(r);
+	}
+}
+
+/* Copying the arrays that a checkpoint holds into a fresh state goes on with the same bits. */
+static void the_arrays_are_the_whole_state(void **state)
+{
+	(void)state;
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+		struct config config = read_config(cases[i].settings, cases[i].count);
+		struct model_state *s = create(&config), *r = create(&config);
+		struct array a[MODEL_ARRAYS_MAX], b[MODEL_ARRAYS_MAX];
+		size_t count;
+
+		advance(s, 0.1);
+		count = dry_model.arrays(s, a);
+		(void)dry_model.arrays(r, b);
+		for (size_t k = 0; k < count; k++)
+			memcpy(b[k].data, a[k].data, a[k].extent[0] * a[k].extent[1] * sizeof(double));
+		dry_model.restored(r);
+		advance(s, 0.1);
+		advance(r, 0.1);
+		for (size_t k = 0; k < count; k++)
+			assert_memory_equal(
+				a[k].data, b[k].data, a[k].extent[0] * a[k].extent[1] * sizeof(double));
+		dry_model.free(s);
+		dry_model.free(r);
+	}
+}
+
+static void a_solver_that_does_not_converge_ends_the_step(void **state)
+{
+	static const char *const few[] = {"pressure_solver.max_iterations=2"};
+	struct config config = read_config(few, 1);
+	struct model_state *s = create(&config);
+	struct error err = {0};
+
+	(void)state;
+	assert_int_equal(dry_model.step(s, 1e-3, &err), -1);
+	assert_int_equal(err.code, EX_FAILED);
+	assert_string_equal(err.text, "the pressure solver (block-gauss-seidel, 4 layers) did not "
+								  "converge: 2 iterations, tolerance 1e-06 m2/s2");
+	dry_model.free(s);
+}
+
+static void numbers_that_are_no_flow_end_the_step_and_say_where(void **state)
+{
+	static const char *const plain[] = {"pressure=hydrostatic"};
+	struct config config = read_config(plain, 1);
+	struct model_state *s = create(&config);
+	struct error err = {0};
+
+	(void)state;
+	s->u[s->grid.stride + 31] = s->U[s->grid.stride + 31] = NAN;
+	assert_true(isnan(dry_model.time_step(s)));
+	assert_int_equal(dry_model.step(s, 1e-3, &err), -1);
+	assert_int_equal(err.code, EX_FAILED);
+	assert_non_null(strstr(err.text, "is not finite"));
+	assert_non_null(strstr(err.text, "at x = 0.0"));
+	dry_model.free(s);
+}
+
+static void a_hydrostatic_run_has_no_fluctuation_and_a_diagnosed_w(void **state)
+{
+	static const char *const plain[] = {"pressure=hydrostatic"};
+	struct config config = read_config(plain, 1);
+	struct model_state *s = create(&config);
+	size_t cells = (size_t)config.domain.cells;
+	double *w = calloc(4 * cells, sizeof *w), *p = calloc(5 * cells, sizeof *p), lowest = 0;
+
+	(void)state;
+	assert_non_null(w);
+	assert_non_null(p);
+	advance(s, 0.1);
+	dry_model.profile(s, 4, w);
+	dry_model.profile(s, 5, p);
+	for (size_t i = 0; i < 4 * cells; i++)
+		lowest = fmin(lowest, w[i]);
+	assert_true(lowest < -0.1); /* the column falls */
+	for (size_t i = 0; i < cells; i++) {
+		assert_true(fabs(p[i] - s->par.rho * s->par.gc * s->h[i + 1]) <= 1e-9 * p[i]);
+		assert_true(p[4 * cells + i] == 0);
+	}
+	free(w);
+	free(p);
+	dry_model.free(s);
+}
+
+#ifndef __SANITIZE_ADDRESS__
+static long allocations;
+
+void *__libc_malloc(size_t bytes);
+void *__libc_calloc(size_t count, size_t bytes);
+
+void *malloc(size_t bytes)
+{
+	allocations++;
+	return __libc_malloc(bytes);
+}
+
+void *calloc(size_t count, size_t bytes)
+{
+	allocations++;
+	return __libc_calloc(count, bytes);
+}
+
+static void a_step_allocates_nothing(void **state)
+{
+	(void)state;
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+		struct config config = read_config(cases[i].settings, cases[i].count);
+		struct model_state *s = create(&config);
+		struct error err = {0};
+		long before = allocations;
+
+		assert_true(before > 0);
+		for (int k = 0; k < 5; k++)
+			assert_int_equal(dry_model.step(s, 1e-4, &err), 0);
+		assert_int_equal(allocations, before);
+		dry_model.free(s);
+	}
+}
+#endif
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(mass_and_outflow_are_constant_to_rounding),
+		cmocka_unit_test(mass_leaves_through_an_outflow_only),
+		cmocka_unit_test(the_energy_never_rises),
+		cmocka_unit_test(the_front_runs_downhill_and_farther_on_a_steeper_slope),
+		cmocka_unit_test(a_bed_below_its_angle_of_repose_stays),
+		cmocka_unit_test(the_projection_leaves_no_divergence),
+		cmocka_unit_test(the_symmetric_operator_is_the_adjoint_of_the_force),
+		cmocka_unit_test(the_two_operators_agree_more_on_a_finer_grid),
+		cmocka_unit_test(a_coarse_guess_changes_the_iterations_and_not_the_flow),
+		cmocka_unit_test(two_runs_have_the_same_bits),
+		cmocka_unit_test(the_arrays_are_the_whole_state),
+		cmocka_unit_test(a_solver_that_does_not_converge_ends_the_step),
+		cmocka_unit_test(numbers_that_are_no_flow_end_the_step_and_say_where),
+		cmocka_unit_test(a_hydrostatic_run_has_no_fluctuation_and_a_diagnosed_w),
+#ifndef __SANITIZE_ADDRESS__
+		cmocka_unit_test(a_step_allocates_nothing),
+#endif
+	};
+
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
