@@ -22,7 +22,7 @@ WARN := -Wall -Wextra -Wconversion -Wshadow -Wvla -Wstrict-prototypes -Wmissing-
 CFLAGS_ALL = -std=c11 -D_GNU_SOURCE -g $(OPT) $(WARN) $(WERROR) -Iinclude -Isrc $(PKG_CFLAGS) $(CFLAGS)
 # Asked once, when first needed: targets that install the libraries run before they are there.
 PKG_CFLAGS = $(eval PKG_CFLAGS := $(patsubst -I%,-isystem %,$(call pkg_config,--cflags,$(PKGS))))$(PKG_CFLAGS)
-PKG_LIBS = $(eval PKG_LIBS := $(call pkg_config,--libs,$(PKGS)) -lm)$(PKG_LIBS)
+PKG_LIBS = $(eval PKG_LIBS := -lhdf5_hl $(call pkg_config,--libs,$(PKGS)) -lm)$(PKG_LIBS)
 pkg_config = $(if $(shell pkg-config --exists $2 2>/dev/null && echo yes),$(shell pkg-config $1 $2),$(error \
 	missing libraries ($2): run `make deps`))
 

@@ -17,8 +17,6 @@ int command_fail(const struct error *err);
 /* Print "talus COMMAND: message" and the way out to stderr; return EX_USAGE. */
 int command_usage(const char *command, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-<<<<<<< HEAD
-=======
 
 /* Long options in the manner of getopt_long; start the short ones with ":" and leave the messages to
  * command_option_error, which takes getopt_long's ':' or '?' and returns EX_USAGE. */
@@ -37,6 +35,5 @@ void command_settings_clean(struct command_settings *settings);
 /* Write `text` to stdout now and empty it. Returns 0, or the exit code after a message: EX_IOERR where
  * stdout cannot be written, EX_SOFTWARE where the text ran out of memory. */
 int command_print(struct text *text);
->>>>>>> config
 
 #endif

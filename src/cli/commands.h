@@ -5,7 +5,11 @@
 #include "cli/command.h"
 
 extern const struct command command_check;
+extern const struct command command_run;
+extern const struct command command_info;
+extern const struct command command_diff;
+extern const struct command command_verify;
 
-#define COMMANDS &command_check,
+#define COMMANDS &command_check, &command_run, &command_info, &command_diff, &command_verify,
 
 #endif
