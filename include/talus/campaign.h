@@ -12,9 +12,9 @@
 #include "talus/text.h"
 
 enum task_state {
-	TASK_WAITING,     /* for its turn */
-	TASK_RUNNING,     /* in a child of ours */
-	TASK_ELSEWHERE,   /* another process works on it */
+	TASK_WAITING,   /* for its turn */
+	TASK_RUNNING,   /* in a child of ours */
+	TASK_ELSEWHERE, /* another process works on it */
 	TASK_COMPLETE,
 	TASK_FAILED,
 	TASK_INTERRUPTED, /* the same command goes on with it */
@@ -24,10 +24,10 @@ enum task_state {
 struct task {
 	const struct experiment_run *run;
 	enum task_state state;
-	bool skipped; /* complete or failed before this command */
-	pid_t pid;    /* of the child while it runs */
-	int code;     /* exit code of the child, 128 + signal where one ended it */
-	int refusals; /* how often a child left because another process held the lock */
+	bool skipped;             /* complete or failed before this command */
+	pid_t pid;                /* of the child while it runs */
+	int code;                 /* exit code of the child, 128 + signal where one ended it */
+	int refusals;             /* how often a child left because another process held the lock */
 	struct run_report report; /* as last read */
 };
 
@@ -73,8 +73,7 @@ void campaign_clean(struct campaign *campaign);
 /* Bring every run to its end. Failed runs do not stop the others. SIGINT, SIGTERM, SIGHUP and SIGUSR1
  * stop the children, whose checkpoints are waited for; a second SIGINT ends the wait. Returns 0 also
  * when runs failed: see the tasks and campaign_code. EX_CANTCREAT, EX_IOERR, EX_SOFTWARE. */
-int campaign_execute(
-	struct campaign *campaign, const struct executor *executor, struct error *err);
+int campaign_execute(struct campaign *campaign, const struct executor *executor, struct error *err);
 
 /* The exit code of the campaign: EX_INTERRUPTED beats EX_FAILED beats 0. */
 int campaign_code(const struct campaign *campaign);

@@ -83,16 +83,16 @@ enum { EXPERIMENT_RUNS_MAX = 10000 };
  * whatever its name began with. `overrides` are "key=value" for all runs. Errors: EX_DATAERR with the
  * place in the experiment or the base config, EX_SOFTWARE. Clean in every case. */
 int experiment_read(struct experiment *experiment, const char *path, const char *folder,
-    const char *const *overrides, int count, struct error *err);
+	const char *const *overrides, int count, struct error *err);
 
 void experiment_clean(struct experiment *experiment);
 
 /* The config of `run` with `more` on top. A bad one among `more` is cited with its place. */
 int experiment_vary(const struct experiment *experiment, const struct experiment_run *run,
-    const struct setting_list *more, struct config *config, struct error *err);
+	const struct setting_list *more, struct config *config, struct error *err);
 
 /* The index of the run with this config and repeat; run_count if the experiment has none. */
 int experiment_find(const struct experiment *experiment, const struct config *config, int repeat,
-    size_t *index, struct error *err);
+	size_t *index, struct error *err);
 
 #endif

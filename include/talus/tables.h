@@ -54,7 +54,7 @@ struct table_format {
  * makes it again, for its notes. A missing run is no error: see `missing`. EX_DATAERR where the
  * experiment asks for what it cannot have, EX_SOFTWARE. Clean in every case. */
 int table_build(struct table *table, const struct experiment *experiment,
-    const struct experiment_table *wanted, const char *command, struct error *err);
+	const struct experiment_table *wanted, const char *command, struct error *err);
 
 void table_clean(struct table *table);
 

@@ -34,8 +34,7 @@ void campaign_clean(struct campaign *campaign)
 	campaign->tasks = NULL;
 }
 
-int campaign_execute(
-	struct campaign *campaign, const struct executor *executor, struct error *err)
+int campaign_execute(struct campaign *campaign, const struct executor *executor, struct error *err)
 {
 	TRY(file_make_folders(campaign->experiment->folder, err));
 	return executor->execute(campaign, err);

@@ -30,7 +30,7 @@ static void overlay_clean(struct overlay *overlay)
 }
 
 static int overlay_fill(
-    struct overlay *overlay, const struct setting_list *const lists[4], struct error *err)
+	struct overlay *overlay, const struct setting_list *const lists[4], struct error *err)
 {
 	size_t total = 0;
 
@@ -57,7 +57,7 @@ static int overlay_fill(
 /* A config error that cites `--set key=value` gets the place where the experiment says so: the last
  * setting of that text is the one in force. Those of the command line stay as they are. */
 static void cite_source(
-    const struct experiment *experiment, const struct overlay *overlay, struct error *err)
+	const struct experiment *experiment, const struct overlay *overlay, struct error *err)
 {
 	static const char option[] = "--set ";
 	char shown[256 - sizeof option + 1]; /* as much as config.c shows */
@@ -78,16 +78,16 @@ static void cite_source(
 }
 
 static int parse(const struct experiment *experiment, const struct setting_list *settings,
-    const struct setting_list *more, struct config *config, struct error *err)
+	const struct setting_list *more, struct config *config, struct error *err)
 {
 	const struct setting_list *const lists[4] = {
-	    &experiment->set, settings, &experiment->overrides, more};
+		&experiment->set, settings, &experiment->overrides, more};
 	struct overlay overlay = {0};
 	int result = -1;
 
 	if (!overlay_fill(&overlay, lists, err))
 		result = config_parse(config, experiment->base_text, experiment->base_length,
-		    experiment->base, (const char *const *)overlay.texts, overlay.count, err);
+			experiment->base, (const char *const *)overlay.texts, overlay.count, err);
 	if (result)
 		cite_source(experiment, &overlay, err);
 	overlay_clean(&overlay);
@@ -95,7 +95,7 @@ static int parse(const struct experiment *experiment, const struct setting_list 
 }
 
 int experiment_vary(const struct experiment *experiment, const struct experiment_run *run,
-    const struct setting_list *more, struct config *config, struct error *err)
+	const struct setting_list *more, struct config *config, struct error *err)
 {
 	return parse(experiment, &run->settings, more, config, err);
 }
@@ -105,13 +105,13 @@ static size_t find_hash(const struct experiment *experiment, const char *hash, i
 	size_t i = 0;
 
 	while (i < experiment->run_count &&
-	       (strcmp(experiment->runs[i].hash, hash) != 0 || experiment->runs[i].repeat != repeat))
+		   (strcmp(experiment->runs[i].hash, hash) != 0 || experiment->runs[i].repeat != repeat))
 		i++;
 	return i;
 }
 
 int experiment_find(const struct experiment *experiment, const struct config *config, int repeat,
-    size_t *index, struct error *err)
+	size_t *index, struct error *err)
 {
 	char hash[CONFIG_HASH_SIZE];
 
@@ -127,7 +127,7 @@ static int too_many(const struct reader *reader, const struct node *node)
 
 /* Append a run with these settings, which it takes over; a run that is there already is dropped. */
 static int add_run(
-    const struct reader *reader, struct experiment *experiment, struct setting_list *settings)
+	const struct reader *reader, struct experiment *experiment, struct setting_list *settings)
 {
 	struct experiment_run run = {.settings = *settings, .repeat = 1};
 	const struct setting_list none = {0};
@@ -135,7 +135,7 @@ static int add_run(
 
 	*settings = (struct setting_list){0};
 	if (parse(experiment, &run.settings, &none, &run.config, reader->err) ||
-	    config_hash(&run.config, run.hash, reader->err))
+		config_hash(&run.config, run.hash, reader->err))
 		goto refused;
 	if (find_hash(experiment, run.hash, 1) < experiment->run_count) {
 		setting_list_clean(&run.settings);
@@ -166,7 +166,7 @@ static bool advance(struct axis *axes, size_t count)
 }
 
 static int add_product(const struct reader *reader, struct experiment *experiment,
-    const struct node *entry, struct axis *axes, size_t count)
+	const struct node *entry, struct axis *axes, size_t count)
 {
 	do {
 		struct setting_list settings = {0};
@@ -175,7 +175,7 @@ static int add_product(const struct reader *reader, struct experiment *experimen
 			return too_many(reader, entry);
 		for (size_t i = 0; i < count; i++)
 			if (setting_list_add(
-			        &settings, axes[i].key, &axes[i].values[axes[i].chosen], reader->err)) {
+					&settings, axes[i].key, &axes[i].values[axes[i].chosen], reader->err)) {
 				setting_list_clean(&settings);
 				return -1;
 			}
@@ -185,7 +185,7 @@ static int add_product(const struct reader *reader, struct experiment *experimen
 }
 
 static int add_entry(
-    const struct reader *reader, struct experiment *experiment, const struct node *entry)
+	const struct reader *reader, struct experiment *experiment, const struct node *entry)
 {
 	struct leaf_list leaves = {0};
 	struct axis *axes = NULL;
@@ -204,7 +204,7 @@ static int add_entry(
 		bool list = node->kind == NODE_SEQUENCE;
 
 		axes[i] = (struct axis){
-		    leaves.items[i].key, list ? node->items : node, list ? node->count : 1, 0};
+			leaves.items[i].key, list ? node->items : node, list ? node->count : 1, 0};
 		if (!axes[i].count) {
 			reader_fail(reader, node, "an empty list asks for no run at all");
 			goto done;
@@ -212,8 +212,8 @@ static int add_entry(
 		product *= (double)axes[i].count;
 	}
 	result = product > EXPERIMENT_RUNS_MAX
-	             ? too_many(reader, entry)
-	             : add_product(reader, experiment, entry, axes, leaves.count);
+				 ? too_many(reader, entry)
+				 : add_product(reader, experiment, entry, axes, leaves.count);
 done:
 	free(axes);
 	leaf_list_clean(&leaves);
@@ -221,14 +221,14 @@ done:
 }
 
 static int copy_settings(
-    struct setting_list *out, const struct setting_list *settings, struct error *err)
+	struct setting_list *out, const struct setting_list *settings, struct error *err)
 {
 	for (size_t i = 0; i < settings->count; i++) {
 		const struct setting *setting = &settings->items[i];
 		const struct node value = {.kind = NODE_SCALAR,
-		    .text = setting->value,
-		    .line = setting->line,
-		    .column = setting->column};
+			.text = setting->value,
+			.line = setting->line,
+			.column = setting->column};
 
 		TRY(setting_list_add(out, setting->key, &value, err));
 	}

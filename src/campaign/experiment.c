@@ -106,18 +106,18 @@ static int read_only(const struct reader *reader, const struct node *node, void 
 }
 
 static int read_table(
-    const struct reader *reader, const struct node *node, struct experiment_table *table)
+	const struct reader *reader, const struct node *node, struct experiment_table *table)
 {
 	static const struct reader_key keys[] = {
-	    {"name", read_table_name},
-	    {"title", read_table_title},
-	    {"rows", read_rows},
-	    {"columns", read_columns},
-	    {"metric", read_metric},
-	    {"baseline", read_baseline},
-	    {"reference", read_reference},
-	    {"at", read_at},
-	    {"only", read_only},
+		{"name", read_table_name},
+		{"title", read_table_title},
+		{"rows", read_rows},
+		{"columns", read_columns},
+		{"metric", read_metric},
+		{"baseline", read_baseline},
+		{"reference", read_reference},
+		{"at", read_at},
+		{"only", read_only},
 	};
 
 	table->title = "";
@@ -148,7 +148,7 @@ static int read_tables(const struct reader *reader, const struct node *node, voi
 		for (size_t k = 0; k < i; k++)
 			if (!strcmp(experiment->tables[k].name.text, table->name.text))
 				return reader_fail(
-				    reader, &node->items[i], "table '%s' stands here twice", table->name.text);
+					reader, &node->items[i], "table '%s' stands here twice", table->name.text);
 	}
 	return 0;
 }
@@ -170,11 +170,11 @@ static int share_published(const struct reader *reader, struct experiment *exper
 		size_t k = 0;
 
 		while (
-		    k < experiment->table_count && strcmp(experiment->tables[k].name.text, item->key) != 0)
+			k < experiment->table_count && strcmp(experiment->tables[k].name.text, item->key) != 0)
 			k++;
 		if (k == experiment->table_count)
 			return error_at(reader->err, EX_DATAERR, reader->path, item->key_line, item->key_column,
-			    "published: no table of this experiment is named '%s'", item->key);
+				"published: no table of this experiment is named '%s'", item->key);
 		experiment->tables[k].published = item;
 	}
 	return 0;
@@ -183,15 +183,15 @@ static int share_published(const struct reader *reader, struct experiment *exper
 static int read_form(const struct reader *reader, struct form *form)
 {
 	static const struct reader_key keys[] = {
-	    {"title", read_title},
-	    {"source", read_source},
-	    {"base", read_base},
-	    {"set", read_set},
-	    {"runs", read_runs},
-	    {"repeat", read_repeat},
-	    {"timing", read_timing},
-	    {"tables", read_tables},
-	    {"published", read_published},
+		{"title", read_title},
+		{"source", read_source},
+		{"base", read_base},
+		{"set", read_set},
+		{"runs", read_runs},
+		{"repeat", read_repeat},
+		{"timing", read_timing},
+		{"tables", read_tables},
+		{"published", read_published},
 	};
 	struct experiment *experiment = form->experiment;
 
@@ -203,7 +203,7 @@ static int read_form(const struct reader *reader, struct form *form)
 
 /* The base config's text; its path is relative to the experiment's. */
 static int load_base(
-    const struct reader *reader, struct experiment *experiment, const struct node *base)
+	const struct reader *reader, struct experiment *experiment, const struct node *base)
 {
 	enum { LIMIT = 1 << 20 }; /* what yaml_parse takes */
 	const char *slash = strrchr(experiment->path, '/');
@@ -234,7 +234,7 @@ static int load_base(
 }
 
 static int keep_overrides(
-    struct experiment *experiment, const char *const *overrides, int count, struct error *err)
+	struct experiment *experiment, const char *const *overrides, int count, struct error *err)
 {
 	for (int i = 0; i < count; i++) {
 		const char *equals = strchr(overrides[i], '=');
@@ -247,7 +247,7 @@ static int keep_overrides(
 		key = strndup(overrides[i], (size_t)(equals - overrides[i]));
 		value.text = strdup(equals + 1);
 		result = key && value.text ? setting_list_add(&experiment->overrides, key, &value, err)
-		                           : error_memory(err, strlen(overrides[i]));
+								   : error_memory(err, strlen(overrides[i]));
 		free(key);
 		free(value.text);
 		TRY(result);
@@ -271,7 +271,7 @@ static int name_folder(struct experiment *experiment, const char *folder, struct
 }
 
 int experiment_read(struct experiment *experiment, const char *path, const char *folder,
-    const char *const *overrides, int count, struct error *err)
+	const char *const *overrides, int count, struct error *err)
 {
 	struct reader reader = {path, err};
 	struct form form = {.experiment = experiment};

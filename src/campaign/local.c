@@ -58,6 +58,18 @@ static bool take_turn(struct pool *pool, struct lock *timing, struct error *err)
 	return false;
 }
 
+/* A run whose folder cannot be made fails alone; without memory or processes nothing goes on. */
+static void fail_start(struct pool *pool, struct task *task, struct error *err)
+{
+	if (err->code != EX_CANTCREAT && err->code != EX_IOERR)
+		return;
+	task->state = TASK_FAILED;
+	task->code = err->code;
+	(void)error_format(err, task->report.reason, sizeof task->report.reason);
+	*err = (struct error){0};
+	tell_end(pool, task);
+}
+
 /* Start one waiting task. False: there is none, or now is not the time. */
 static bool start_next(struct pool *pool, struct error *err)
 {
@@ -73,10 +85,12 @@ static bool start_next(struct pool *pool, struct error *err)
 			return false;
 		/* another campaign may have been here since we looked */
 		task_look(pool->campaign, task);
-		if (task->state == TASK_WAITING)
-			started = !task_start(pool->campaign, task, &pool->before, &timing, err);
-		else if (is_over(task))
+		if (is_over(task))
 			tell_end(pool, task);
+		else if (task->state == TASK_WAITING &&
+				 task_start(pool->campaign, task, &pool->before, &timing, err))
+			fail_start(pool, task, err);
+		started = task->state == TASK_RUNNING;
 		lock_release(&timing); /* the child has its own hold on it */
 		if (err->code)
 			return false;

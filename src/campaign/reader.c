@@ -18,11 +18,11 @@ int reader_fail(const struct reader *reader, const struct node *node, const char
 	(void)vsnprintf(message, sizeof message, format, args);
 	va_end(args);
 	return error_at(reader->err, EX_DATAERR, reader->path, node->line, node->column, "%s%s%s",
-	    node->key ? node->key : "", node->key ? ": " : "", message);
+		node->key ? node->key : "", node->key ? ": " : "", message);
 }
 
 static int unknown_key(const struct reader *reader, const struct node *item,
-    const struct reader_key *keys, size_t count)
+	const struct reader_key *keys, size_t count)
 {
 	int best = (int)strlen(item->key) / 3 + 2;
 	const char *nearest = NULL;
@@ -41,16 +41,16 @@ static int unknown_key(const struct reader *reader, const struct node *item,
 	(void)text_excerpt(item->key, shown, sizeof shown);
 	if (nearest)
 		error_at(reader->err, EX_DATAERR, reader->path, item->key_line, item->key_column,
-		    "unknown key '%s'; did you mean '%s'?", shown, nearest);
+			"unknown key '%s'; did you mean '%s'?", shown, nearest);
 	else
 		error_at(reader->err, EX_DATAERR, reader->path, item->key_line, item->key_column,
-		    "unknown key '%s'; known are: %s", shown, text_string(&known));
+			"unknown key '%s'; known are: %s", shown, text_string(&known));
 	text_clean(&known);
 	return -1;
 }
 
 int reader_keys(const struct reader *reader, const struct node *node, const struct reader_key *keys,
-    size_t count, void *target)
+	size_t count, void *target)
 {
 	if (node->kind != NODE_MAPPING)
 		return reader_fail(reader, node, "a mapping of keys is wanted here");
@@ -78,7 +78,7 @@ int reader_text(const struct reader *reader, const struct node *node, const char
 static const char *excerpt(const struct node *node, char shown[EXCERPT])
 {
 	return node->kind == NODE_SCALAR ? text_excerpt(node->text, shown, EXCERPT)
-	                                 : node_kind_name(node);
+									 : node_kind_name(node);
 }
 
 int reader_integer(const struct reader *reader, const struct node *node, int min, int max, int *out)
@@ -87,7 +87,7 @@ int reader_integer(const struct reader *reader, const struct node *node, int min
 
 	if (node->kind != NODE_SCALAR || !text_to_integer(node->text, out) || *out < min || *out > max)
 		return reader_fail(
-		    reader, node, "%s is not a whole number from %d to %d", excerpt(node, shown), min, max);
+			reader, node, "%s is not a whole number from %d to %d", excerpt(node, shown), min, max);
 	return 0;
 }
 
@@ -126,7 +126,7 @@ int reader_terms(const struct reader *reader, const struct node *node, struct te
 
 /* Refuse a key that no config has, or that the list has already. */
 static int check_key(const struct reader *reader, const struct leaf_list *list, const char *key,
-    const struct node *node)
+	const struct node *node)
 {
 	struct config any = {0};
 	struct text value = {0};
@@ -136,17 +136,17 @@ static int check_key(const struct reader *reader, const struct leaf_list *list, 
 	text_clean(&value);
 	if (result)
 		return error_at(reader->err, refusal.code, reader->path, node->key_line, node->key_column,
-		    "%s", refusal.text);
+			"%s", refusal.text);
 	for (size_t i = 0; i < list->count; i++)
 		if (!strcmp(list->items[i].key, key))
 			return error_at(reader->err, EX_DATAERR, reader->path, node->key_line, node->key_column,
-			    "duplicate key '%s'", key);
+				"duplicate key '%s'", key);
 	return 0;
 }
 
 /* Takes `key` over. */
 static int leaf_add(
-    const struct reader *reader, struct leaf_list *list, char *key, const struct node *node)
+	const struct reader *reader, struct leaf_list *list, char *key, const struct node *node)
 {
 	struct leaf *items;
 
@@ -165,7 +165,7 @@ static int leaf_add(
 }
 
 static int add_leaves(
-    const struct reader *reader, const struct node *node, const char *prefix, struct leaf_list *out)
+	const struct reader *reader, const struct node *node, const char *prefix, struct leaf_list *out)
 {
 	for (size_t i = 0; i < node->count; i++) {
 		const struct node *item = &node->items[i];
@@ -216,7 +216,7 @@ static void add_value(struct text *out, const struct node *node)
 }
 
 int setting_list_add(
-    struct setting_list *list, const char *key, const struct node *node, struct error *err)
+	struct setting_list *list, const char *key, const struct node *node, struct error *err)
 {
 	struct setting *items = realloc(list->items, (list->count + 1) * sizeof *items);
 	struct text value = {0};

@@ -18,15 +18,15 @@ struct reader_key {
 
 /* EX_DATAERR at the place of a node. Returns -1. */
 int reader_fail(const struct reader *reader, const struct node *node, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+	__attribute__((format(printf, 3, 4)));
 
 /* Every entry of a mapping by its row of `keys`; an unknown one is refused with the nearest. */
 int reader_keys(const struct reader *reader, const struct node *node, const struct reader_key *keys,
-    size_t count, void *target);
+	size_t count, void *target);
 
 int reader_text(const struct reader *reader, const struct node *node, const char **out);
 int reader_integer(
-    const struct reader *reader, const struct node *node, int min, int max, int *out);
+	const struct reader *reader, const struct node *node, int min, int max, int *out);
 int reader_bool(const struct reader *reader, const struct node *node, bool *out);
 
 /* One scalar, or a list of them. */
@@ -51,7 +51,7 @@ int reader_settings(const struct reader *reader, const struct node *node, struct
 
 /* Add a copy of `key` with the value that `node` writes. */
 int setting_list_add(
-    struct setting_list *list, const char *key, const struct node *node, struct error *err);
+	struct setting_list *list, const char *key, const struct node *node, struct error *err);
 void setting_list_clean(struct setting_list *list);
 
 #endif

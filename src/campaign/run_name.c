@@ -71,7 +71,7 @@ static void add_safe(struct text *out, const char *value)
 }
 
 static void add_readable(
-    const struct experiment *experiment, const struct experiment_run *run, struct text *out)
+	const struct experiment *experiment, const struct experiment_run *run, struct text *out)
 {
 	for (size_t i = 0; i < run->settings.count; i++) {
 		const struct setting *setting = &run->settings.items[i];
@@ -88,7 +88,7 @@ static void add_readable(
 }
 
 static int name_run(
-    const struct experiment *experiment, struct experiment_run *run, int digits, struct error *err)
+	const struct experiment *experiment, struct experiment_run *run, int digits, struct error *err)
 {
 	struct text id = {0};
 
@@ -106,7 +106,7 @@ static int digits_needed(const struct experiment *experiment)
 	for (size_t i = 0; i < experiment->run_count; i++)
 		for (size_t k = 0; k < i; k++)
 			if (!strncmp(experiment->runs[i].hash, experiment->runs[k].hash, DIGITS) &&
-			    strcmp(experiment->runs[i].hash, experiment->runs[k].hash) != 0)
+				strcmp(experiment->runs[i].hash, experiment->runs[k].hash) != 0)
 				return CONFIG_HASH_SIZE - 1;
 	return DIGITS;
 }
@@ -125,14 +125,14 @@ static bool name_belongs(const char *name, const struct experiment_run *run, int
 	while (start > name && isdigit((unsigned char)start[-1]))
 		start--;
 	if (start < end && start - name >= (long)strlen(mark) &&
-	    !strncmp(start - strlen(mark), mark, strlen(mark)))
+		!strncmp(start - strlen(mark), mark, strlen(mark)))
 		repeat = atoi(start); /* NOLINT(cert-err34-c): digits only; a huge one matches no repeat */
 	return repeat == run->repeat;
 }
 
 /* The name of an existing folder of this run: its own id if that exists, else the first in order. */
 static const char *find_folder(
-    struct dirent **entries, int count, const struct experiment_run *run, int digits)
+	struct dirent **entries, int count, const struct experiment_run *run, int digits)
 {
 	const char *found = NULL;
 

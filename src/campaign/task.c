@@ -73,8 +73,7 @@ done:
 static void become_run(const struct campaign *campaign, char *const *arguments, const char *log,
 	const sigset_t *mask, const struct lock *timing, pid_t parent)
 {
-	const char *program =
-		campaign->options.program ? campaign->options.program : "/proc/self/exe";
+	const char *program = campaign->options.program ? campaign->options.program : "/proc/self/exe";
 	int fd;
 
 	/* a group of its own: Ctrl-C reaches the campaign alone, which passes it on */

@@ -21,15 +21,15 @@ struct builder {
 };
 
 static void tell_missing(
-    struct builder *builder, const struct experiment_run *run, const char *why, const char *reason)
+	struct builder *builder, const struct experiment_run *run, const char *why, const char *reason)
 {
 	text_addf(&builder->table->missing, "table '%s': run %s %s%s%s\n", builder->table->name,
-	    run->id, why, *reason ? ": " : "", reason);
+		run->id, why, *reason ? ": " : "", reason);
 }
 
 /* Open a run's file if the run is complete; NULL if not, and `tell` says whether to say so. */
 static struct run_file *open_run(
-    struct builder *builder, const struct experiment_run *run, bool tell)
+	struct builder *builder, const struct experiment_run *run, bool tell)
 {
 	struct run_report report;
 	struct run_file *file = NULL;
@@ -69,7 +69,7 @@ static struct run_file *open_partner(struct builder *builder, size_t index)
 }
 
 static void measure(struct builder *builder, size_t index, struct run_file *file,
-    const struct measure *measure, double *value)
+	const struct measure *measure, double *value)
 {
 	const struct experiment_run *run = &builder->experiment->runs[index];
 	const struct metric *metric = measure->metric;
@@ -82,7 +82,7 @@ static void measure(struct builder *builder, size_t index, struct run_file *file
 		sample.partner = partner == index ? file : open_partner(builder, partner);
 		if (!sample.partner) {
 			tell_missing(builder, run, "lacks the run it is compared with",
-			    builder->experiment->runs[partner].id);
+				builder->experiment->runs[partner].id);
 			return;
 		}
 	}
@@ -129,7 +129,7 @@ static int compare(const void *a, const void *b)
 
 /* Median and half the range of the repeats in a cell; `samples` has room for all of them. */
 static struct table_cell gather(
-    const struct builder *builder, long row, long column, size_t m, double *samples)
+	const struct builder *builder, long row, long column, size_t m, double *samples)
 {
 	const struct layout *layout = builder->layout;
 	size_t count = 0;
@@ -148,12 +148,12 @@ static struct table_cell gather(
 		return (struct table_cell){.kind = asked ? CELL_MISSING : CELL_BLANK};
 	qsort(samples, count, sizeof *samples, compare);
 	return (struct table_cell){.kind = CELL_NUMBER,
-	    .value = (samples[(count - 1) / 2] + samples[count / 2]) / 2,
-	    .spread = (samples[count - 1] - samples[0]) / 2};
+		.value = (samples[(count - 1) / 2] + samples[count / 2]) / 2,
+		.spread = (samples[count - 1] - samples[0]) / 2};
 }
 
 static int add_head(
-    struct table_column *column, const char *prefix, const char *text, struct error *err)
+	struct table_column *column, const char *prefix, const char *text, struct error *err)
 {
 	struct text head = {0};
 
@@ -173,7 +173,7 @@ static const char *last_part(const char *key)
 
 /* The heads of a column of numbers: its key values, the metric, the profile time, who says so. */
 static int add_number_column(
-    const struct builder *builder, size_t column, size_t m, const char *source, struct error *err)
+	const struct builder *builder, size_t column, size_t m, const char *source, struct error *err)
 {
 	const struct layout *layout = builder->layout;
 	const struct measure *measure = &layout->measures[m];
@@ -182,7 +182,7 @@ static int add_number_column(
 	out->decimals = measure->metric->decimals;
 	for (size_t k = 0; k < layout->columns.keys; k++)
 		TRY(add_head(out, last_part(layout->wanted->columns.items[k].text),
-		    layout->columns.items[column].parts[k], err));
+			layout->columns.items[column].parts[k], err));
 	TRY(add_head(out, "", measure->metric->header, err));
 	if (measure->at_text)
 		TRY(add_head(out, "at", measure->at_text, err));
@@ -309,7 +309,7 @@ static void write_notes(const struct builder *builder, const char *command)
 }
 
 int table_build(struct table *table, const struct experiment *experiment,
-    const struct experiment_table *wanted, const char *command, struct error *err)
+	const struct experiment_table *wanted, const char *command, struct error *err)
 {
 	struct layout layout = {0};
 	struct builder builder = {.experiment = experiment, .layout = &layout, .table = table};
@@ -317,7 +317,7 @@ int table_build(struct table *table, const struct experiment *experiment,
 
 	*table = (struct table){.name = wanted->name.text};
 	if (layout_create(&layout, experiment, wanted, err) || measure_runs(&builder, err) ||
-	    add_columns(&builder, err) || fill_cells(&builder, err))
+		add_columns(&builder, err) || fill_cells(&builder, err))
 		goto done;
 	write_title(&builder);
 	write_notes(&builder, command);

@@ -20,7 +20,7 @@ static int decimals_of(const struct table_column *column, double value)
 
 /* A cell for people. */
 static void add_cell(
-    const struct table_column *column, const struct table_cell *cell, struct text *out)
+	const struct table_column *column, const struct table_cell *cell, struct text *out)
 {
 	int decimals = decimals_of(column, cell->value);
 
@@ -111,7 +111,7 @@ static void print_text(const struct table *table, struct text *out)
 	for (size_t line = 0; line < lines; line++) {
 		for (size_t c = 0; c < table->column_count; c++)
 			add_padded(out, head_in_line(table, c, line, lines), column_width(table, c),
-			    table->columns[c].label, c + 1 == table->column_count);
+				table->columns[c].label, c + 1 == table->column_count);
 		trim_line(out);
 	}
 	for (size_t c = 0; c < table->column_count; c++)
@@ -124,7 +124,7 @@ static void print_text(const struct table *table, struct text *out)
 
 			add_cell(&table->columns[c], &table->cells[row * table->column_count + c], &cell);
 			add_padded(out, text_string(&cell), column_width(table, c), table->columns[c].label,
-			    c + 1 == table->column_count);
+				c + 1 == table->column_count);
 			text_clean(&cell);
 		}
 		trim_line(out);
@@ -217,7 +217,7 @@ static void add_csv_heads(const struct table *table, struct text *out)
 
 /* Numbers in full: a CSV file is read by programs. */
 static void add_csv_cell(
-    const struct table_column *column, const struct table_cell *cell, bool first, struct text *out)
+	const struct table_column *column, const struct table_cell *cell, bool first, struct text *out)
 {
 	bool number = cell->kind == CELL_NUMBER;
 	char buffer[TEXT_REAL_SIZE];
@@ -240,15 +240,15 @@ static void print_csv(const struct table *table, struct text *out)
 	for (size_t row = 0; row < table->row_count; row++) {
 		for (size_t c = 0; c < table->column_count; c++)
 			add_csv_cell(
-			    &table->columns[c], &table->cells[row * table->column_count + c], c == 0, out);
+				&table->columns[c], &table->cells[row * table->column_count + c], c == 0, out);
 		text_add(out, "\r\n");
 	}
 }
 
 static const struct table_format formats[] = {
-    {"text", false, print_text},
-    {"markdown", false, print_markdown},
-    {"csv", true, print_csv},
+	{"text", false, print_text},
+	{"markdown", false, print_markdown},
+	{"csv", true, print_csv},
 };
 
 const struct table_format *table_format_find(const char *name)

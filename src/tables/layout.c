@@ -10,10 +10,10 @@
 #include "talus/config.h"
 
 static int fail_at(const struct layout *layout, const struct term *term, struct error *err,
-    const char *format, ...) __attribute__((format(printf, 4, 5)));
+	const char *format, ...) __attribute__((format(printf, 4, 5)));
 
 static int fail_at(const struct layout *layout, const struct term *term, struct error *err,
-    const char *format, ...)
+	const char *format, ...)
 {
 	char message[1024];
 	va_list args;
@@ -22,7 +22,7 @@ static int fail_at(const struct layout *layout, const struct term *term, struct 
 	(void)vsnprintf(message, sizeof message, format, args);
 	va_end(args);
 	return error_at(err, EX_DATAERR, layout->experiment->path, term->line, term->column,
-	    "table '%s': %s", layout->wanted->name.text, message);
+		"table '%s': %s", layout->wanted->name.text, message);
 }
 
 /* Give a placeless error the place of `term`. */
@@ -38,7 +38,7 @@ static int place_error(const struct layout *layout, const struct term *term, str
 
 /* The value of a key: its author's text where the run has one that is in force. */
 static int part_text(
-    const struct layout *layout, const struct experiment_run *run, const char *key, char **out)
+	const struct layout *layout, const struct experiment_run *run, const char *key, char **out)
 {
 	const struct setting_list *overrides = &layout->experiment->overrides;
 	const char *text = NULL;
@@ -62,7 +62,7 @@ static void label_clean(struct label *label, size_t keys)
 }
 
 static int label_make(const struct layout *layout, const struct experiment_run *run,
-    const struct term_list *keys, struct label *label, struct error *err)
+	const struct term_list *keys, struct label *label, struct error *err)
 {
 	struct text identity = {0};
 
@@ -92,7 +92,7 @@ static int label_make(const struct layout *layout, const struct experiment_run *
 
 /* The index of the run's label, added when it is new. */
 static int label_index(const struct layout *layout, const struct experiment_run *run,
-    const struct term_list *keys, struct label_list *list, long *index, struct error *err)
+	const struct term_list *keys, struct label_list *list, long *index, struct error *err)
 {
 	struct label label = {0}, *items;
 	size_t i = 0;
@@ -122,7 +122,7 @@ refused:
 
 /* Does the run have the values of `only`? A value that this run cannot have is not its own. */
 static int is_wanted(
-    const struct layout *layout, const struct experiment_run *run, bool *wanted, struct error *err)
+	const struct layout *layout, const struct experiment_run *run, bool *wanted, struct error *err)
 {
 	const struct setting_list *only = &layout->wanted->only;
 	struct text mine = {0}, other = {0};
@@ -144,7 +144,7 @@ static int is_wanted(
 
 		mine.length = other.length = 0;
 		result = config_value(&run->config, setting->key, &mine, err) ||
-		         config_value(&config, setting->key, &other, err);
+				 config_value(&config, setting->key, &other, err);
 		*wanted = !result && !strcmp(text_string(&mine), text_string(&other));
 	}
 	text_clean(&mine);
@@ -159,7 +159,7 @@ static int fail_empty(const struct layout *layout, struct error *err)
 
 	for (size_t i = 0; i < layout->experiment->run_count; i++)
 		TRY(experiment_vary(
-		    layout->experiment, &layout->experiment->runs[i], &layout->wanted->only, &config, err));
+			layout->experiment, &layout->experiment->runs[i], &layout->wanted->only, &config, err));
 	return fail_at(layout, &layout->wanted->name, err, "no run has the values of its 'only'");
 }
 
@@ -180,7 +180,7 @@ static int place_runs(struct layout *layout, struct error *err)
 		any = true;
 		TRY(label_index(layout, run, &layout->wanted->rows, &layout->rows, &place->row, err));
 		TRY(label_index(
-		    layout, run, &layout->wanted->columns, &layout->columns, &place->column, err));
+			layout, run, &layout->wanted->columns, &layout->columns, &place->column, err));
 	}
 	return any ? 0 : fail_empty(layout, err);
 }
@@ -208,16 +208,16 @@ static int refuse_crowds(const struct layout *layout, struct error *err)
 			*holder = (long)i;
 		else if (strcmp(runs[*holder].hash, runs[i].hash) != 0)
 			result = fail_at(layout, &layout->wanted->name, err,
-			    "runs %s and %s fall into one cell; rows, columns or only must name what "
-			    "they differ in",
-			    runs[*holder].id, runs[i].id);
+				"runs %s and %s fall into one cell; rows, columns or only must name what "
+				"they differ in",
+				runs[*holder].id, runs[i].id);
 	}
 	free(first);
 	return result;
 }
 
 static int find_partners(struct layout *layout, enum metric_partner kind, const char *noun,
-    const struct setting_list *change, struct error *err)
+	const struct setting_list *change, struct error *err)
 {
 	const struct experiment *experiment = layout->experiment;
 
@@ -232,7 +232,7 @@ static int find_partners(struct layout *layout, enum metric_partner kind, const 
 		TRY(experiment_find(experiment, &config, run->repeat, index, err));
 		if (*index == experiment->run_count)
 			return fail_at(layout, &layout->wanted->name, err,
-			    "the %s of run %s is not a run of this experiment", noun, run->id);
+				"the %s of run %s is not a run of this experiment", noun, run->id);
 	}
 	return 0;
 }
@@ -241,7 +241,7 @@ static int pair_runs(struct layout *layout, struct error *err)
 {
 	static const char *const nouns[] = {"", "baseline", "reference"};
 	const struct setting_list *changes[] = {
-	    NULL, &layout->wanted->baseline, &layout->wanted->reference};
+		NULL, &layout->wanted->baseline, &layout->wanted->reference};
 	bool needed[3] = {false};
 
 	for (size_t i = 0; i < layout->measure_count; i++)
@@ -258,7 +258,7 @@ static int pair_runs(struct layout *layout, struct error *err)
 
 /* A time at which some run of the table takes no profile would leave its cell missing for ever. */
 static int check_profile(
-    const struct layout *layout, const struct term *term, double at, struct error *err)
+	const struct layout *layout, const struct term *term, double at, struct error *err)
 {
 	for (size_t i = 0; i < layout->experiment->run_count; i++) {
 		const struct config *config = &layout->experiment->runs[i].config;
@@ -269,14 +269,14 @@ static int check_profile(
 			found |= times->values[k] == at;
 		if (layout->places[i].row != LAYOUT_NOWHERE && !found)
 			return fail_at(layout, term, err,
-			    "output.profiles_at of run %s does not have the time %s",
-			    layout->experiment->runs[i].id, term->text);
+				"output.profiles_at of run %s does not have the time %s",
+				layout->experiment->runs[i].id, term->text);
 	}
 	return 0;
 }
 
 static int read_at(
-    const struct layout *layout, const struct term *term, double *at, struct error *err)
+	const struct layout *layout, const struct term *term, double *at, struct error *err)
 {
 	if (quantity_read(term->text, "s", at, err))
 		return place_error(layout, term, err);
@@ -297,8 +297,8 @@ static int list_measures(struct layout *layout, struct error *err)
 
 		if (!measure.metric)
 			return fail_at(layout, &names->items[i], err,
-			    "unknown metric '%s'; the nearest known one is '%s'", names->items[i].text,
-			    nearest);
+				"unknown metric '%s'; the nearest known one is '%s'", names->items[i].text,
+				nearest);
 		if (!measure.metric->profile || !at->count)
 			layout->measures[layout->measure_count++] = measure;
 		for (size_t k = 0; measure.metric->profile && k < at->count; k++) {
@@ -311,7 +311,7 @@ static int list_measures(struct layout *layout, struct error *err)
 }
 
 int layout_create(struct layout *layout, const struct experiment *experiment,
-    const struct experiment_table *wanted, struct error *err)
+	const struct experiment_table *wanted, struct error *err)
 {
 	*layout = (struct layout){.experiment = experiment, .wanted = wanted};
 	layout->places = calloc(experiment->run_count, sizeof *layout->places);

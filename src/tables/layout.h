@@ -47,7 +47,7 @@ struct layout {
 /* EX_DATAERR with the place in the experiment file where it asks for what cannot be. Clean in every
  * case. */
 int layout_create(struct layout *layout, const struct experiment *experiment,
-    const struct experiment_table *wanted, struct error *err);
+	const struct experiment_table *wanted, struct error *err);
 
 void layout_clean(struct layout *layout);
 

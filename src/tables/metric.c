@@ -16,7 +16,7 @@ static size_t dataset_count(const struct dataset *data)
 
 /* A dataset that holds at least one value. */
 static int read_values(
-    struct run_file *file, const char *name, struct dataset *data, struct error *err)
+	struct run_file *file, const char *name, struct dataset *data, struct error *err)
 {
 	TRY(run_file_dataset(file, name, data, err));
 	if (dataset_count(data))
@@ -27,7 +27,7 @@ static int read_values(
 }
 
 static int series_greatest(
-    const struct sample *sample, const char *name, double *out, struct error *err)
+	const struct sample *sample, const char *name, double *out, struct error *err)
 {
 	struct dataset data = {0};
 
@@ -40,7 +40,7 @@ static int series_greatest(
 }
 
 static int series_last(
-    const struct sample *sample, const char *name, double *out, struct error *err)
+	const struct sample *sample, const char *name, double *out, struct error *err)
 {
 	struct dataset data = {0};
 
@@ -52,7 +52,7 @@ static int series_last(
 
 /* In percent of the CPU time of the whole run. */
 static int series_share(
-    const struct sample *sample, const char *name, double *out, struct error *err)
+	const struct sample *sample, const char *name, double *out, struct error *err)
 {
 	struct dataset data = {0};
 	double all, sum = 0;
@@ -140,7 +140,7 @@ static int find_profile(struct run_file *file, double time, size_t *row, struct 
 
 /* h over x at a time. `values` belongs to the caller. */
 static int read_thickness(
-    struct run_file *file, double time, double **values, size_t *cells, struct error *err)
+	struct run_file *file, double time, double **values, size_t *cells, struct error *err)
 {
 	struct dataset h = {0};
 	size_t row;
@@ -167,11 +167,11 @@ static int difference(const struct sample *sample, int power, double *out, struc
 	int result = -1;
 
 	if (read_thickness(sample->file, sample->at, &h, &cells, err) ||
-	    read_thickness(sample->partner, sample->at, &reference, &reference_cells, err))
+		read_thickness(sample->partner, sample->at, &reference, &reference_cells, err))
 		goto done;
 	if (cells != reference_cells) {
 		error_set(
-		    err, EX_DATAERR, "%zu cells here and %zu in the reference", cells, reference_cells);
+			err, EX_DATAERR, "%zu cells here and %zu in the reference", cells, reference_cells);
 		goto done;
 	}
 	for (size_t i = 0; i < cells; i++) {
@@ -197,17 +197,17 @@ static int l2_difference(const struct sample *sample, double *out, struct error 
 }
 
 static const struct metric metrics[] = {
-    {"iterations", "iterations", 0, PARTNER_NONE, false, iterations},
-    {"coarse-iterations", "coarse iterations", 0, PARTNER_NONE, false, coarse_iterations},
-    {"cpu-seconds", "CPU s", -1, PARTNER_NONE, false, cpu_seconds},
-    {"speed-up", "speed-up", 2, PARTNER_BASELINE, false, speed_up},
-    {"step-share-transport", "step 1 %", 1, PARTNER_NONE, false, share_transport},
-    {"step-share-friction", "step 2 %", 1, PARTNER_NONE, false, share_friction},
-    {"step-share-pressure", "step 3 %", 1, PARTNER_NONE, false, share_pressure},
-    {"steps", "steps", 0, PARTNER_NONE, false, steps},
-    {"runout", "runout m", 3, PARTNER_NONE, false, runout},
-    {"l1-difference", "l1 %", 2, PARTNER_REFERENCE, true, l1_difference},
-    {"l2-difference", "l2 %", 2, PARTNER_REFERENCE, true, l2_difference},
+	{"iterations", "iterations", 0, PARTNER_NONE, false, iterations},
+	{"coarse-iterations", "coarse iterations", 0, PARTNER_NONE, false, coarse_iterations},
+	{"cpu-seconds", "CPU s", -1, PARTNER_NONE, false, cpu_seconds},
+	{"speed-up", "speed-up", 2, PARTNER_BASELINE, false, speed_up},
+	{"step-share-transport", "step 1 %", 1, PARTNER_NONE, false, share_transport},
+	{"step-share-friction", "step 2 %", 1, PARTNER_NONE, false, share_friction},
+	{"step-share-pressure", "step 3 %", 1, PARTNER_NONE, false, share_pressure},
+	{"steps", "steps", 0, PARTNER_NONE, false, steps},
+	{"runout", "runout m", 3, PARTNER_NONE, false, runout},
+	{"l1-difference", "l1 %", 2, PARTNER_REFERENCE, true, l1_difference},
+	{"l2-difference", "l2 %", 2, PARTNER_REFERENCE, true, l2_difference},
 };
 
 const struct metric *metric_find(const char *name, const char **nearest)

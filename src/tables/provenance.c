@@ -22,7 +22,7 @@ static void add_variant(struct provenance *provenance, struct variants *variants
 
 /* Attributes joined by blanks; one that the file lacks is left out. */
 static void add_attributes(struct provenance *provenance, struct variants *variants,
-    struct run_file *file, const char *const *names, size_t count)
+	struct run_file *file, const char *const *names, size_t count)
 {
 	struct text all = {0};
 
@@ -42,7 +42,7 @@ static void add_attributes(struct provenance *provenance, struct variants *varia
 void provenance_add(struct provenance *provenance, struct run_file *file)
 {
 	static const char *const build[] = {
-	    "talus_version", "git_revision", "compiler", "compiler_flags"};
+		"talus_version", "git_revision", "compiler", "compiler_flags"};
 	static const char *const host[] = {"host"};
 
 	add_attributes(provenance, &provenance->builds, file, build, sizeof build / sizeof *build);
@@ -50,12 +50,12 @@ void provenance_add(struct provenance *provenance, struct run_file *file)
 }
 
 static void print_variants(
-    const struct variants *variants, const char *noun, bool flag, struct text *out)
+	const struct variants *variants, const char *noun, bool flag, struct text *out)
 {
 	if (flag && variants->count > 1)
 		text_addf(out,
-		    "Beware: the runs were made by %zu different %ss, so their times do not compare.\n",
-		    variants->count, noun);
+			"Beware: the runs were made by %zu different %ss, so their times do not compare.\n",
+			variants->count, noun);
 	for (size_t i = 0; i < variants->count; i++)
 		text_addf(out, "Made %s %s.\n", noun[0] == 'b' ? "by talus" : "on", variants->items[i]);
 }

@@ -7,19 +7,19 @@
 #include "talus/text.h"
 
 static int refuse(const struct layout *layout, const struct node *node, const char *what,
-    size_t wanted, struct error *err)
+	size_t wanted, struct error *err)
 {
 	const char *name = layout->wanted->name.text;
 
 	if (node->kind == NODE_SEQUENCE)
 		return error_at(err, EX_DATAERR, layout->experiment->path, node->line, node->column,
-		    "published: %s has %zu %s here and the table %zu", name, node->count, what, wanted);
+			"published: %s has %zu %s here and the table %zu", name, node->count, what, wanted);
 	return error_at(err, EX_DATAERR, layout->experiment->path, node->line, node->column,
-	    "published: %s wants a list of %zu %s here", name, wanted, what);
+		"published: %s wants a list of %zu %s here", name, wanted, what);
 }
 
 static int read_value(
-    const struct layout *layout, const struct node *node, const char **out, struct error *err)
+	const struct layout *layout, const struct node *node, const char **out, struct error *err)
 {
 	double number;
 
@@ -28,15 +28,15 @@ static int read_value(
 		return 0;
 	if (node->kind != NODE_SCALAR || !text_to_real(node->text, &number))
 		return error_at(err, EX_DATAERR, layout->experiment->path, node->line, node->column,
-		    "published: %s is neither a number nor null",
-		    node->kind == NODE_SCALAR ? node->text : "this");
+			"published: %s is neither a number nor null",
+			node->kind == NODE_SCALAR ? node->text : "this");
 	*out = node->text;
 	return 0;
 }
 
 /* A cell: one value, a list of one per measure, or null for a blank one. */
 static int read_cell(
-    const struct layout *layout, const struct node *node, const char **out, struct error *err)
+	const struct layout *layout, const struct node *node, const char **out, struct error *err)
 {
 	bool blank = node->kind == NODE_SCALAR && (!strcmp(node->text, "null") || !node->text[0]);
 
@@ -53,7 +53,7 @@ static int read_cell(
 
 /* A row: a list of cells, or one cell where the table has no column keys. */
 static int read_row(
-    const struct layout *layout, const struct node *node, const char **out, struct error *err)
+	const struct layout *layout, const struct node *node, const char **out, struct error *err)
 {
 	if (!layout->columns.keys)
 		return read_cell(layout, node, out, err);
