@@ -54,15 +54,17 @@ static const char *short_key(const struct experiment_run *run, const char *key)
 	return last_part(key);
 }
 
-/* Blanks go, other characters that a file name or a shell would trip over become one '-'. */
+/* Blanks go, what else a file name or a shell would trip over becomes one '-' between what stays. */
 static void add_safe(struct text *out, const char *value)
 {
+	size_t start = out->length;
+
 	for (bool gap = false; *value; value++) {
 		bool plain = isalnum((unsigned char)*value) || strchr("._+-", *value);
 
 		if (isspace((unsigned char)*value))
 			continue;
-		if (plain && gap)
+		if (plain && gap && out->length > start)
 			text_add(out, "-");
 		if (plain)
 			text_add_bytes(out, value, 1);
