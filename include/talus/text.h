@@ -36,8 +36,8 @@ bool text_to_real(const char *string, double *value);
 /* Whole `string` as a decimal integer in the range of int. */
 bool text_to_integer(const char *string, int *value);
 
-/* `string` in one printable line for a message: control characters become '?', and what does not fit
- * `size` bytes ends in "...". Returns `buffer`. */
+/* `string` in one printable line for a message: a tab becomes a blank, other control
+ * characters '?', and what does not fit `size` bytes ends in "...". Returns `buffer`. */
 char *text_excerpt(const char *string, char *buffer, size_t size);
 
 /* Edit distance (insert, delete, substitute, swap neighbours), for "did you mean". Strings longer

@@ -121,7 +121,7 @@ char *text_excerpt(const char *string, char *buffer, size_t size)
 			length--; /* not in the middle of a UTF-8 character */
 	}
 	for (size_t i = 0; i < length; i++)
-		buffer[i] = iscntrl((unsigned char)string[i]) ? '?' : string[i];
+		buffer[i] = string[i] == '\t' ? ' ' : iscntrl((unsigned char)string[i]) ? '?' : string[i];
 	(void)snprintf(buffer + length, size - length, "%s", cut ? "..." : "");
 	return buffer;
 }

@@ -168,7 +168,9 @@ static int read_tangent(const char *text, const char *argument, double *value, s
 	(void)snprintf(angle, sizeof angle, "%.*s", (int)length - 1, argument);
 	if (quantity_read(angle, "rad", &radians, err) != 0)
 		return error_context(err, "%s", text);
-	*value = tan(radians);
+	/* in long double, where the C library has one version for all processors: the bits of a config
+	 * must not depend on the machine that reads it */
+	*value = (double)tanl(radians);
 	return 0;
 }
 
@@ -183,7 +185,7 @@ static int trim(const char *text, char buffer[QUANTITY_SIZE], struct error *err)
 	(void)text_excerpt(text, buffer, QUANTITY_SIZE);
 	if (strlen(text) >= QUANTITY_SIZE)
 		return error_set(err, EX_DATAERR, "%s is too long for a number", buffer);
-	for (length = strlen(buffer); strchr(" \t", buffer[length - 1]); length--)
+	for (length = strlen(buffer); buffer[length - 1] == ' '; length--)
 		buffer[length - 1] = '\0';
 	return 0;
 }
@@ -194,14 +196,16 @@ int quantity_read(const char *given, const char *unit, double *value, struct err
 	const char *name;
 	size_t mantissa, length;
 	const struct unit *row;
+	bool hexadecimal;
 
 	TRY(trim(given, text, err));
 	if (!strcmp(unit, "1") && !strncmp(text, "tan(", 4))
 		return read_tangent(text, text + 4, value, err);
 	length = number_length(text, &mantissa);
-	if (length == 0 || text[length] == 'x' || text[length] == 'X')
+	hexadecimal = length <= 2 && (text[length] == 'x' || text[length] == 'X');
+	if (length == 0 || hexadecimal)
 		return error_set(err, EX_DATAERR, "%s is not a finite decimal number", text);
-	name = text + length + strspn(text + length, " \t");
+	name = text + length + strspn(text + length, " ");
 	if (!*name && !strcmp(unit, "rad"))
 		return error_set(err, EX_DATAERR,
 		    "%s has no unit; an angle must say deg or rad, as in %s deg", text, text);

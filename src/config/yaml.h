@@ -1,4 +1,4 @@
-/* YAML as a tree with places. The only file that calls libyaml is yaml.c. */
+/* YAML as a tree with places (node.c). The only file that calls libyaml is yaml.c. */
 #ifndef TALUS_YAML_H
 #define TALUS_YAML_H
 
