@@ -5,8 +5,8 @@
 #define XXH_STATIC_LINKING_ONLY /* for the size of the state, so that it needs no allocation */
 #include <xxhash.h>
 
-void digest_of_two(const void *a, size_t a_size, const void *b, size_t b_size,
-	unsigned char digest[DIGEST_SIZE])
+void digest_of_two(
+    const void *a, size_t a_size, const void *b, size_t b_size, unsigned char digest[DIGEST_SIZE])
 {
 	XXH3_state_t state;
 	XXH128_canonical_t canonical;

@@ -1,0 +1,228 @@
+#include "run/recorder.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "run/history.h"
+#include "run/recorder_parts.h"
+
+static size_t profile_size(const struct recorder *r, const struct profile *profile)
+{
+	switch (profile->shape) {
+	case PROFILE_X:
+		return r->cells;
+	case PROFILE_LAYER_X:
+		return r->layers * r->cells;
+	default:
+		return (r->layers + 1) * r->cells;
+	}
+}
+
+int recorder_create(const struct model *model, const struct config *config, const struct axes *axes,
+    struct recorder **out, struct error *err)
+{
+	struct recorder *r = calloc(1, sizeof *r);
+	size_t most = 0;
+
+	if (!r)
+		return error_memory(err, sizeof *r);
+	*out = r;
+	r->model = model;
+	r->config = config;
+	r->axes = *axes;
+	r->cells = (size_t)axes->cells;
+	r->layers = (size_t)axes->layers;
+	history_init(&r->history, model);
+	r->columns = calloc(RECORDER_OWN + model->series_count, sizeof *r->columns);
+	r->observed = calloc(model->series_count + 1, sizeof *r->observed);
+	r->sums = calloc(model->series_count + 1, sizeof *r->sums);
+	r->fields = calloc(model->profile_count + 1, sizeof *r->fields);
+	if (!r->columns || !r->observed || !r->sums || !r->fields)
+		goto failed;
+	for (size_t p = 0; p < model->profile_count; p++) {
+		struct field_rows *field = &r->fields[p];
+
+		field->size = profile_size(r, &model->profiles[p]);
+		most = field->size > most ? field->size : most;
+		field->before = malloc(field->size * sizeof *field->before);
+		if (!field->before)
+			goto failed;
+	}
+	r->after = malloc((most + 1) * sizeof *r->after);
+	if (r->after)
+		return 0;
+failed:
+	recorder_free(r);
+	*out = NULL;
+	return error_memory(err, most * sizeof(double));
+}
+
+void recorder_free(struct recorder *r)
+{
+	if (!r)
+		return;
+	for (size_t i = 0; r->columns && i < RECORDER_OWN + r->model->series_count; i++)
+		free(r->columns[i]);
+	for (size_t p = 0; r->fields && p < r->model->profile_count; p++) {
+		free(r->fields[p].rows);
+		free(r->fields[p].before);
+	}
+	history_clean(&r->history);
+	free(r->columns);
+	free(r->observed);
+	free(r->sums);
+	free(r->fields);
+	free(r->profile_times);
+	free(r->after);
+	free(r);
+}
+
+static int grow(double **values, size_t count, struct error *err)
+{
+	double *larger = realloc(*values, (count + 1) * sizeof *larger);
+
+	if (!larger)
+		return error_memory(err, count * sizeof *larger);
+	*values = larger;
+	return 0;
+}
+
+int recorder_reserve_rows(struct recorder *r, size_t rows, struct error *err)
+{
+	size_t capacity = r->capacity ? r->capacity : 1024;
+
+	if (rows <= r->capacity)
+		return 0;
+	while (capacity < rows)
+		capacity *= 2;
+	for (size_t i = 0; i < RECORDER_OWN + r->model->series_count; i++)
+		TRY(grow(&r->columns[i], capacity, err));
+	r->capacity = capacity;
+	return 0;
+}
+
+int recorder_reserve_profiles(struct recorder *r, size_t rows, struct error *err)
+{
+	size_t capacity = r->profile_capacity ? r->profile_capacity : 1;
+
+	if (rows <= r->profile_capacity)
+		return 0;
+	while (capacity < rows)
+		capacity *= 2;
+	for (size_t p = 0; p < r->model->profile_count; p++)
+		if (!r->model->profiles[p].constant)
+			TRY(grow(&r->fields[p].rows, capacity * r->fields[p].size, err));
+	TRY(grow(&r->profile_times, capacity, err));
+	r->profile_capacity = capacity;
+	return 0;
+}
+
+/* One profile time; `weight` is the place of `time` between the states before (0) and now (1). */
+static int add_profile(struct recorder *r, const struct model_state *state, double time,
+    double weight, struct error *err)
+{
+	TRY(recorder_reserve_profiles(r, r->profile_rows + 1, err));
+	for (size_t p = 0; p < r->model->profile_count; p++) {
+		struct field_rows *field = &r->fields[p];
+		double *row = field->rows + r->profile_rows * field->size;
+
+		if (r->model->profiles[p].constant)
+			continue;
+		if (weight >= 1) {
+			r->model->profile(state, p, row);
+			continue;
+		}
+		r->model->profile(state, p, r->after);
+		for (size_t i = 0; i < field->size; i++)
+			row[i] = field->before[i] + weight * (r->after[i] - field->before[i]);
+	}
+	r->profile_times[r->profile_rows++] = time;
+	return 0;
+}
+
+static bool is_due(const struct recorder *r, double time)
+{
+	const struct real_list *at = &r->config->output.profiles_at;
+
+	return r->next_profile < (size_t)at->count && at->values[r->next_profile] <= time;
+}
+
+static int add_profiles(struct recorder *r, const struct model_state *state,
+    const struct recorder_step *step, struct error *err)
+{
+	while (is_due(r, step->to)) {
+		double time = r->config->output.profiles_at.values[r->next_profile++];
+		double weight = time < step->to ? (time - step->from) / (step->to - step->from) : 1;
+
+		TRY(add_profile(r, state, time, weight, err));
+	}
+	if (step->last && (r->profile_rows == 0 || r->profile_times[r->profile_rows - 1] != step->to))
+		return add_profile(r, state, step->to, 1, err);
+	return 0;
+}
+
+/* Whether the series are recorded at this step; the next time is then behind it. */
+static bool is_sampled(struct recorder *r, const struct recorder_step *step)
+{
+	double every = r->config->output.series_every;
+
+	if (every <= 0)
+		return true;
+	if (step->to < r->next_sample * every)
+		return step->last;
+	r->next_sample = floor(step->to / every);
+	while (r->next_sample * every <= step->to)
+		r->next_sample++;
+	return true;
+}
+
+static int add_series(struct recorder *r, const struct model_state *state,
+    const struct recorder_step *step, struct error *err)
+{
+	const struct model *model = r->model;
+
+	model->observe(state, r->observed);
+	TRY(history_add(&r->history, step->to, r->observed, err));
+	for (size_t i = 0; i < model->series_count; i++)
+		r->sums[i] = model->series[i].per_step_sum ? r->sums[i] + r->observed[i] : r->observed[i];
+	if (!is_sampled(r, step))
+		return 0;
+	TRY(recorder_reserve_rows(r, r->rows + 1, err));
+	r->columns[RECORDER_TIME][r->rows] = step->to;
+	r->columns[RECORDER_DT][r->rows] = step->dt;
+	for (size_t i = 0; i < model->series_count; i++) {
+		r->columns[RECORDER_OWN + i][r->rows] = r->sums[i];
+		r->sums[i] = 0;
+	}
+	r->rows++;
+	return 0;
+}
+
+int recorder_begin(struct recorder *r, const struct model_state *state, struct error *err)
+{
+	struct recorder_step start = {0};
+
+	for (size_t p = 0; p < r->model->profile_count; p++)
+		if (r->model->profiles[p].constant) {
+			TRY(grow(&r->fields[p].rows, r->fields[p].size, err));
+			r->model->profile(state, p, r->fields[p].rows);
+		}
+	TRY(add_series(r, state, &start, err));
+	return add_profiles(r, state, &start, err);
+}
+
+void recorder_before(
+    struct recorder *r, const struct model_state *state, const struct recorder_step *step)
+{
+	for (size_t p = 0; is_due(r, step->to) && p < r->model->profile_count; p++)
+		if (!r->model->profiles[p].constant)
+			r->model->profile(state, p, r->fields[p].before);
+}
+
+int recorder_after(struct recorder *r, const struct model_state *state,
+    const struct recorder_step *step, struct error *err)
+{
+	TRY(add_series(r, state, step, err));
+	return add_profiles(r, state, step, err);
+}

@@ -1,0 +1,40 @@
+/* The recorder's memory, shared by the files that fill it and that write and read it. */
+#ifndef TALUS_RECORDER_PARTS_H
+#define TALUS_RECORDER_PARTS_H
+
+#include "run/history.h"
+#include "run/recorder.h"
+
+/* Series of every model, before the model's own. */
+enum { RECORDER_TIME, RECORDER_DT, RECORDER_OWN };
+
+struct field_rows {
+	size_t size;    /* of one row */
+	double *rows;   /* [profile rows][size]; [1][size] of a constant one */
+	double *before; /* [size], before the step that holds a profile time */
+};
+
+struct recorder {
+	const struct model *model;
+	const struct config *config;
+	struct axes axes;
+	size_t cells, layers;
+	struct history history;
+
+	size_t rows, capacity;
+	double **columns;   /* [RECORDER_OWN + series][capacity] */
+	double *observed;   /* [series], of the last step */
+	double *sums;       /* [series], what the next row will hold */
+	double next_sample; /* series are due at this multiple of series_every; a whole number */
+
+	size_t profile_rows, profile_capacity;
+	double *profile_times;     /* [profile_capacity] */
+	struct field_rows *fields; /* [profiles] */
+	double *after;             /* the largest field, after the step */
+	size_t next_profile;       /* index into output.profiles_at */
+};
+
+int recorder_reserve_rows(struct recorder *recorder, size_t rows, struct error *err);
+int recorder_reserve_profiles(struct recorder *recorder, size_t rows, struct error *err);
+
+#endif

@@ -1,0 +1,378 @@
+#include "talus/run_file.h"
+
+#include <endian.h>
+#include <hdf5.h>
+#include <hdf5_hl.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "run/run_file_parts.h"
+#include "run/trailer.h"
+
+struct run_file {
+	unsigned char *bytes; /* the image and what is behind it */
+	size_t size;          /* of the image */
+	hid_t id;             /* the image, opened by HDF5, which reads `bytes` in place */
+	struct run_summary summary;
+	bool newest;
+	char *path;
+};
+
+const char *run_status_name(enum run_status status)
+{
+	static const char *const names[] = {"unfinished", "complete", "failed"};
+
+	return names[status];
+}
+
+/* The length that the HDF5 superblock gives the file; 0: these bytes are no HDF5 file. */
+static uint64_t superblock_length(const unsigned char *bytes, size_t size)
+{
+	static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
+	static const size_t places[] = {40, 44, 28, 28}; /* by version of the superblock */
+	uint64_t length;
+
+	if (size < TRAILER_SIZE || memcmp(bytes, signature, sizeof signature) != 0 || bytes[8] > 3)
+		return 0;
+	memcpy(&length, bytes + places[bytes[8]], sizeof length);
+	return le64toh(length);
+}
+
+/* Decide from the bytes alone, before HDF5 sees any of them, whether the file is good. */
+static int verify(struct run_file *file, size_t size, bool *trailer, struct error *err)
+{
+	uint64_t length = superblock_length(file->bytes, size), image_size;
+	const unsigned char *end;
+
+	if (size < TRAILER_SIZE)
+		return error_at(err, EX_DATAERR, file->path, 0, 0,
+		    "is not a run file, or what is left of one: it has %zu bytes", size);
+	end = file->bytes + size - TRAILER_SIZE;
+	*trailer = trailer_read(end, &file->summary, &image_size);
+	if (*trailer && image_size != size - TRAILER_SIZE)
+		return error_at(err, EX_DATAERR, file->path, 0, 0,
+		    "is damaged: it should have %llu bytes and has %zu",
+		    (unsigned long long)image_size + TRAILER_SIZE, size);
+	if (*trailer && !trailer_matches(end, file->bytes, size - TRAILER_SIZE))
+		return error_at(
+		    err, EX_DATAERR, file->path, 0, 0, "is damaged: its content does not match its digest");
+	if (!*trailer && !length)
+		return error_at(err, EX_DATAERR, file->path, 0, 0, "is not a run file");
+	if (!*trailer && length != size)
+		return error_at(
+		    err, EX_DATAERR, file->path, 0, 0, "is damaged: its trailer is missing or changed");
+	file->size = *trailer ? size - TRAILER_SIZE : size;
+	return 0;
+}
+
+/* What the trailer would say, from the content. */
+static int summarise(struct run_file *file, struct error *err)
+{
+	struct text status = {0}, hash = {0};
+	double step, time;
+	int result = -1;
+
+	if (run_file_text(file, "status", &status, err) != 0 ||
+	    run_file_text(file, "config_hash", &hash, err) != 0 ||
+	    run_file_fill(file, "/checkpoint/step", &step, 1, err) != 0 ||
+	    run_file_fill(file, "/checkpoint/time", &time, 1, err) != 0)
+		goto done;
+	file->summary = (struct run_summary){.step = (uint64_t)step, .time = time};
+	for (int i = RUN_UNFINISHED; i <= RUN_FAILED; i++)
+		if (!strcmp(text_string(&status), run_status_name((enum run_status)i)))
+			file->summary.status = (enum run_status)i;
+	strncat(file->summary.config_hash, text_string(&hash), sizeof file->summary.config_hash - 1);
+	result = 0;
+done:
+	text_clean(&status);
+	text_clean(&hash);
+	return result;
+}
+
+int run_file_open(const char *path, struct run_file **out, const char **warning, struct error *err)
+{
+	struct run_file *file = calloc(1, sizeof *file);
+	bool trailer = true;
+	size_t size;
+
+	*out = NULL;
+	if (warning)
+		*warning = NULL;
+	if (!file)
+		return error_memory(err, sizeof *file);
+	file->id = -1;
+	file->path = strdup(path);
+	if (!file->path) {
+		error_memory(err, strlen(path) + 1);
+		goto failed;
+	}
+	if (file_read(path, &file->bytes, &size, err) != 0 || verify(file, size, &trailer, err) != 0)
+		goto failed;
+	(void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+	file->id = H5LTopen_file_image(
+	    file->bytes, file->size, H5LT_FILE_IMAGE_DONT_COPY | H5LT_FILE_IMAGE_DONT_RELEASE);
+	if (file->id < 0) {
+		error_at(err, EX_DATAERR, path, 0, 0, "is not a run file: HDF5 cannot open it");
+		goto failed;
+	}
+	if (!trailer && summarise(file, err) != 0)
+		goto failed;
+	if (!trailer && warning)
+		*warning = "has no trailer (a copy made by another program?): its content is not verified";
+	*out = file;
+	return 0;
+failed:
+	run_file_close(file);
+	return -1;
+}
+
+void run_file_close(struct run_file *file)
+{
+	if (!file)
+		return;
+	if (file->id >= 0)
+		(void)H5Fclose(file->id);
+	free(file->bytes);
+	free(file->path);
+	free(file);
+}
+
+int run_file_peek(const char *path, struct run_summary *summary, struct error *err)
+{
+	unsigned char trailer[TRAILER_SIZE];
+	uint64_t image_size;
+	size_t size;
+
+	TRY(file_read_end(path, trailer, sizeof trailer, &size, err));
+	if (!trailer_read(trailer, summary, &image_size) || image_size != size - TRAILER_SIZE)
+		return error_at(err, EX_DATAERR, path, 0, 0, "has no trailer: it is damaged or a copy");
+	return 0;
+}
+
+/* Open one generation; what is wrong with it, or its warning, goes to `warning`. */
+static int open_generation(const char *folder, const char *name, struct run_file **out,
+    struct text *warning, struct error *err)
+{
+	struct text path = {0};
+	const char *remark = NULL;
+	char message[sizeof err->text + sizeof err->file];
+	int result;
+
+	TRY(file_path(&path, folder, name, err));
+	result = run_file_open(text_string(&path), out, &remark, err);
+	if (result == 0 && remark)
+		text_addf(warning, "%s: %s", text_string(&path), remark);
+	if (result != 0)
+		text_add(warning, error_format(err, message, sizeof message));
+	text_clean(&path);
+	return result;
+}
+
+int run_file_open_newest(
+    const char *folder, struct run_file **out, struct text *warning, struct error *err)
+{
+	struct error newest = {0}, previous = {0};
+
+	if (open_generation(folder, RUN_FILE_NEWEST, out, warning, &newest) == 0) {
+		(*out)->newest = true;
+		return 0;
+	}
+	if (newest.code == EX_SOFTWARE || newest.code == EX_IOERR) {
+		*err = newest;
+		return -1;
+	}
+	text_add(warning, "; ");
+	if (open_generation(folder, RUN_FILE_PREVIOUS, out, warning, &previous) == 0) {
+		text_add(warning, "the previous generation is used");
+		return 0;
+	}
+	text_clean(warning);
+	if (previous.code == EX_SOFTWARE || previous.code == EX_IOERR) {
+		*err = previous;
+	} else if (newest.code == EX_NOINPUT && previous.code == EX_NOINPUT) {
+		error_at(err, EX_NOINPUT, folder, 0, 0, "holds no run file");
+	} else {
+		char first[sizeof newest.text / 2], second[sizeof newest.text / 2];
+
+		error_at(err, EX_DATAERR, folder, 0, 0, "no generation of its run file is good: %s; %s",
+		    error_format(&newest, first, sizeof first),
+		    error_format(&previous, second, sizeof second));
+	}
+	return -1;
+}
+
+const char *run_file_path(const struct run_file *file)
+{
+	return file->path;
+}
+
+const struct run_summary *run_file_summary(const struct run_file *file)
+{
+	return &file->summary;
+}
+
+bool run_file_is_newest(const struct run_file *file)
+{
+	return file->newest;
+}
+
+const unsigned char *run_file_image(const struct run_file *file, size_t *size)
+{
+	*size = file->size;
+	return file->bytes;
+}
+
+static int attribute_error(struct run_file *file, const char *name, struct error *err)
+{
+	return error_at(err, EX_DATAERR, file->path, 0, 0,
+	    "attribute '%s' is absent or not of the right type", name);
+}
+
+int run_file_text(struct run_file *file, const char *name, struct text *out, struct error *err)
+{
+	hid_t id = H5Aopen(file->id, name, H5P_DEFAULT), type = id < 0 ? -1 : H5Aget_type(id);
+	size_t size = type < 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0
+	                  ? 0
+	                  : H5Tget_size(type);
+	char *value = size ? calloc(1, size + 1) : NULL;
+	int result = -1;
+
+	if (size && !value) {
+		error_memory(err, size + 1);
+	} else if (!size || H5Aread(id, type, value) < 0) {
+		attribute_error(file, name, err);
+	} else {
+		text_add(out, value);
+		result = out->failed ? error_memory(err, size) : 0;
+	}
+	free(value);
+	if (type >= 0)
+		(void)H5Tclose(type);
+	if (id >= 0)
+		(void)H5Aclose(id);
+	return result;
+}
+
+int run_file_real(struct run_file *file, const char *name, double *out, struct error *err)
+{
+	hid_t id = H5Aopen(file->id, name, H5P_DEFAULT), space = id < 0 ? -1 : H5Aget_space(id);
+	int result = 0;
+
+	/* one number: HDF5 itself refuses to convert text to it */
+	if (space < 0 || H5Sget_simple_extent_npoints(space) != 1 ||
+	    H5Aread(id, H5T_NATIVE_DOUBLE, out) < 0)
+		result = attribute_error(file, name, err);
+	if (space >= 0)
+		(void)H5Sclose(space);
+	if (id >= 0)
+		(void)H5Aclose(id);
+	return result;
+}
+
+/* Open a dataset of numbers and tell its shape. */
+static hid_t open_dataset(struct run_file *file, const char *path, struct dataset *shape)
+{
+	hsize_t extent[3] = {0};
+	hid_t id = H5Dopen2(file->id, path, H5P_DEFAULT);
+	hid_t space = id < 0 ? -1 : H5Dget_space(id);
+	bool right = space >= 0;
+
+	shape->rank = right ? H5Sget_simple_extent_ndims(space) : -1;
+	right = right && shape->rank >= 0 && shape->rank <= 3 &&
+	        H5Sget_simple_extent_dims(space, extent, NULL) >= 0;
+	for (int i = 0; i < 3; i++)
+		shape->extent[i] = extent[i];
+	if (space >= 0)
+		(void)H5Sclose(space);
+	if (id >= 0 && !right) {
+		(void)H5Dclose(id);
+		id = -1;
+	}
+	return id;
+}
+
+/* The number of values of a shape; SIZE_MAX / 16 where it cannot be held. */
+static size_t shape_count(const struct dataset *shape)
+{
+	size_t count = 1;
+
+	for (int i = 0; i < shape->rank; i++) {
+		if (shape->extent[i] && count > SIZE_MAX / 16 / shape->extent[i])
+			return SIZE_MAX / 16;
+		count *= shape->extent[i];
+	}
+	return count;
+}
+
+int run_file_dataset(
+    struct run_file *file, const char *path, struct dataset *out, struct error *err)
+{
+	size_t count;
+	hid_t id = open_dataset(file, path, out);
+	int result = -1;
+
+	out->values = NULL;
+	if (id < 0)
+		return error_at(err, EX_DATAERR, file->path, 0, 0, "holds no dataset '%s'", path);
+	count = shape_count(out);
+	out->values = malloc((count + 1) * sizeof *out->values);
+	if (!out->values)
+		error_memory(err, count * sizeof *out->values);
+	else if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out->values) < 0)
+		error_at(err, EX_DATAERR, file->path, 0, 0, "dataset '%s' cannot be read", path);
+	else
+		result = 0;
+	(void)H5Dclose(id);
+	if (result) {
+		free(out->values);
+		out->values = NULL;
+	}
+	return result;
+}
+
+int run_file_fill(
+    struct run_file *file, const char *path, double *values, size_t count, struct error *err)
+{
+	struct dataset shape;
+	hid_t id = open_dataset(file, path, &shape);
+	int result = 0;
+
+	if (id < 0)
+		return error_at(err, EX_DATAERR, file->path, 0, 0, "holds no dataset '%s'", path);
+	if (shape_count(&shape) != count)
+		result = error_at(err, EX_DATAERR, file->path, 0, 0,
+		    "dataset '%s' has %zu values instead of %zu", path, shape_count(&shape), count);
+	else if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+		result = error_at(err, EX_DATAERR, file->path, 0, 0, "dataset '%s' cannot be read", path);
+	(void)H5Dclose(id);
+	return result;
+}
+
+bool run_file_has(struct run_file *file, const char *path)
+{
+	hid_t id = H5Oopen(file->id, path, H5P_DEFAULT);
+
+	if (id >= 0)
+		(void)H5Oclose(id);
+	return id >= 0;
+}
+
+static herr_t add_name(hid_t group, const char *name, const H5L_info_t *info, void *out)
+{
+	hid_t id = H5Oopen(group, name, H5P_DEFAULT);
+
+	(void)info;
+	if (id < 0)
+		return -1;
+	if (H5Iget_type(id) == H5I_DATASET)
+		text_addf(out, "/%s\n", name);
+	return H5Oclose(id);
+}
+
+int run_file_names(struct run_file *file, struct text *out, struct error *err)
+{
+	if (H5Lvisit(file->id, H5_INDEX_NAME, H5_ITER_INC, add_name, out) < 0)
+		return error_at(err, EX_DATAERR, file->path, 0, 0, "its datasets cannot be listed");
+	return out->failed ? error_memory(err, out->capacity) : 0;
+}

@@ -1,0 +1,31 @@
+/* What the run folder needs of a run file beyond <talus/run_file.h>. */
+#ifndef TALUS_RUN_FILE_PARTS_H
+#define TALUS_RUN_FILE_PARTS_H
+
+#include "talus/run_file.h"
+
+#define RUN_FILE_NEWEST "run.h5"
+#define RUN_FILE_PREVIOUS "run.previous.h5"
+
+const char *run_file_path(const struct run_file *file);
+const struct run_summary *run_file_summary(const struct run_file *file);
+
+/* Whether run_file_open_newest found run.h5 itself good, rather than the previous generation. */
+bool run_file_is_newest(const struct run_file *file);
+
+/* The HDF5 image, owned by `file`. */
+const unsigned char *run_file_image(const struct run_file *file, size_t *size);
+
+/* The path of every dataset, sorted, one a line. */
+int run_file_names(struct run_file *file, struct text *out, struct error *err);
+
+bool run_file_has(struct run_file *file, const char *path);
+
+/* Read a dataset of exactly `count` values. EX_DATAERR. */
+int run_file_fill(
+    struct run_file *file, const char *path, double *values, size_t count, struct error *err);
+
+/* "unfinished", "complete", "failed" */
+const char *run_status_name(enum run_status status);
+
+#endif
