@@ -45,12 +45,12 @@ struct node;
 /* A table as the file asks for it; src/tables gives it its meaning. */
 struct experiment_table {
 	struct term name;
-	const char *title;            /* "": that of the experiment */
-	struct term_list rows;        /* keys whose values make the rows */
-	struct term_list columns;     /* the same for columns; may be empty */
-	struct term_list metrics;     /* what a cell shows */
-	struct term_list at;          /* profile times for the metrics that need one; empty: the last */
-	struct setting_list baseline; /* makes of a run's config that of the run it is timed against */
+	const char *title;             /* "": that of the experiment */
+	struct term_list rows;         /* keys whose values make the rows */
+	struct term_list columns;      /* the same for columns; may be empty */
+	struct term_list metrics;      /* what a cell shows */
+	struct term_list at;           /* profile times for the metrics that need one; empty: the end */
+	struct setting_list baseline;  /* makes of a run's config that of the run it is timed against */
 	struct setting_list reference; /* makes of a run's config that of the exact one */
 	struct setting_list only;      /* runs without these values are left out */
 	const struct node *published;  /* rows of columns of metrics, NULL: none */

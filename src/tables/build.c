@@ -76,6 +76,8 @@ static void measure(struct builder *builder, size_t index, struct run_file *file
 	struct sample sample = {file, &run->config, NULL, measure->at};
 	struct error err = {0};
 
+	if (isnan(sample.at))
+		sample.at = run->config.time.end;
 	if (metric->partner != PARTNER_NONE) {
 		size_t partner = builder->layout->places[index].partner[metric->partner];
 

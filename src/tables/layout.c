@@ -256,9 +256,9 @@ static int pair_runs(struct layout *layout, struct error *err)
 	return 0;
 }
 
-/* A time at which some run of the table takes no profile would leave its cell missing for ever. */
-static int check_profile(
-	const struct layout *layout, const struct term *term, double at, struct error *err)
+/* A time at which some run of the table stores no profile would leave its cell missing for ever. */
+static int check_profile(const struct layout *layout, const struct term *term, double at,
+	const char *at_text, struct error *err)
 {
 	for (size_t i = 0; i < layout->experiment->run_count; i++) {
 		const struct config *config = &layout->experiment->runs[i].config;
@@ -266,21 +266,25 @@ static int check_profile(
 		bool found = false;
 
 		for (int k = 0; k < times->count; k++)
-			found |= times->values[k] == at;
+			found |= times->values[k] == (isnan(at) ? config->time.end : at);
 		if (layout->places[i].row != LAYOUT_NOWHERE && !found)
-			return fail_at(layout, term, err,
-				"output.profiles_at of run %s does not have the time %s",
-				layout->experiment->runs[i].id, term->text);
+			return fail_at(layout, term, err, "run %s has no %s in its output.profiles_at",
+				layout->experiment->runs[i].id, at_text);
 	}
 	return 0;
 }
 
-static int read_at(
-	const struct layout *layout, const struct term *term, double *at, struct error *err)
+static int add_measure(struct layout *layout, const struct metric *metric, const struct term *name,
+	const struct term *at, struct error *err)
 {
-	if (quantity_read(term->text, "s", at, err))
-		return place_error(layout, term, err);
-	return check_profile(layout, term, *at, err);
+	struct measure *measure = &layout->measures[layout->measure_count++];
+
+	*measure = (struct measure){metric, NAN, at ? at->text : NULL};
+	if (at && quantity_read(at->text, "s", &measure->at, err))
+		return place_error(layout, at, err);
+	return metric->profile
+			   ? check_profile(layout, at ? at : name, measure->at, at ? at->text : "time.end", err)
+			   : 0;
 }
 
 /* Every metric once, those of a profile once for every time. */
@@ -293,19 +297,16 @@ static int list_measures(struct layout *layout, struct error *err)
 		return error_memory(err, names->count * (at->count + 1) * sizeof *layout->measures);
 	for (size_t i = 0; i < names->count; i++) {
 		const char *nearest;
-		struct measure measure = {metric_find(names->items[i].text, &nearest), NAN, NULL};
+		const struct metric *metric = metric_find(names->items[i].text, &nearest);
 
-		if (!measure.metric)
+		if (!metric)
 			return fail_at(layout, &names->items[i], err,
 				"unknown metric '%s'; the nearest known one is '%s'", names->items[i].text,
 				nearest);
-		if (!measure.metric->profile || !at->count)
-			layout->measures[layout->measure_count++] = measure;
-		for (size_t k = 0; measure.metric->profile && k < at->count; k++) {
-			TRY(read_at(layout, &at->items[k], &measure.at, err));
-			measure.at_text = at->items[k].text;
-			layout->measures[layout->measure_count++] = measure;
-		}
+		if (!metric->profile || !at->count)
+			TRY(add_measure(layout, metric, &names->items[i], NULL, err));
+		for (size_t k = 0; metric->profile && k < at->count; k++)
+			TRY(add_measure(layout, metric, &names->items[i], &at->items[k], err));
 	}
 	return 0;
 }

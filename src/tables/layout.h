@@ -22,8 +22,8 @@ struct label_list {
 /* One number per cell. */
 struct measure {
 	const struct metric *metric;
-	double at;           /* profile time, s; NaN: the last */
-	const char *at_text; /* as written, NULL: the last */
+	double at;           /* profile time, s; NaN: the end of each run */
+	const char *at_text; /* as written, NULL: the end */
 };
 
 enum { LAYOUT_NOWHERE = -1 };

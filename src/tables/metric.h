@@ -16,7 +16,7 @@ struct sample {
 	struct run_file *file;
 	const struct config *config;
 	struct run_file *partner; /* of the kind the metric asks for, else NULL */
-	double at;                /* profile time, s; NaN: the last */
+	double at;                /* profile time, s */
 };
 
 struct metric {

@@ -1,4 +1,5 @@
 /* Experiment files: what runs they ask for, what those are called, and what is refused. */
+#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,7 +9,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include "talus/experiment.h"
 
@@ -153,9 +153,10 @@ static void a_list_in_a_list_is_one_value(void **state)
 
 static void equal_runs_are_merged(void **state)
 {
-	struct experiment e = read_good("base: base.yaml\n"
-									"runs: [{layers: [4, 8]}, {}, {erodible_bed_thickness: 0.00182}]\n",
-		NULL, 0);
+	struct experiment e =
+		read_good("base: base.yaml\n"
+				  "runs: [{layers: [4, 8]}, {}, {erodible_bed_thickness: 0.00182}]\n",
+			NULL, 0);
 
 	(void)state;
 	assert_int_equal(e.run_count, 2);
@@ -164,7 +165,8 @@ static void equal_runs_are_merged(void **state)
 
 static void repeats_come_after_one_another(void **state)
 {
-	struct experiment e = read_good("base: base.yaml\nrepeat: 2\nruns: [{layers: [4, 8]}]\n", NULL, 0);
+	struct experiment e =
+		read_good("base: base.yaml\nrepeat: 2\nruns: [{layers: [4, 8]}]\n", NULL, 0);
 
 	(void)state;
 	assert_int_equal(e.run_count, 4);
@@ -193,11 +195,11 @@ static void a_name_has_what_varies_as_it_was_written(void **state)
 
 static void keys_that_end_alike_are_written_in_full(void **state)
 {
-	struct experiment e =
-		read_good("base: base.yaml\n"
-				  "runs: [{regularisation.velocity: [1e-5, 1e-4], output.static_speed: [0.01, 0.02]},"
-				  " {initial.front: [0 m, 0.1 m], output.front_threshold: 1 mm}]\n",
-			NULL, 0);
+	struct experiment e = read_good(
+		"base: base.yaml\n"
+		"runs: [{regularisation.velocity: [1e-5, 1e-4], output.static_speed: [0.01, 0.02]},"
+		" {initial.front: [0 m, 0.1 m], output.front_threshold: 1 mm}]\n",
+		NULL, 0);
 
 	(void)state;
 	assert_readable(&e.runs[0], "velocity-1e-5_static_speed-0.01");
@@ -295,11 +297,9 @@ static void what_is_wrong_is_refused_with_its_place(void **state)
 			"study.yaml:2:9: repeat: 0 is not a whole number from 1 to 1000"},
 		{"base: base.yaml\nrepeat: 1.5\n",
 			"study.yaml:2:9: repeat: 1.5 is not a whole number from 1 to 1000"},
-		{"base: base.yaml\ntiming: yes\n",
-			"study.yaml:2:9: timing: yes is neither true nor false"},
+		{"base: base.yaml\ntiming: yes\n", "study.yaml:2:9: timing: yes is neither true nor false"},
 		{"base: base.yaml\nruns: 5\n", "study.yaml:2:7: runs: a list of mappings is wanted here"},
-		{"base: base.yaml\nruns: [5]\n",
-			"study.yaml:2:8: a mapping of config keys is wanted here"},
+		{"base: base.yaml\nruns: [5]\n", "study.yaml:2:8: a mapping of config keys is wanted here"},
 		{"base: base.yaml\nruns: [{layers: []}]\n",
 			"study.yaml:2:17: layers: an empty list asks for no run at all"},
 		{"base: base.yaml\nruns:\n  - {layer: 5}\n",
@@ -317,8 +317,7 @@ static void what_is_wrong_is_refused_with_its_place(void **state)
 			"study.yaml:5:19: n_ini_guess: 2 does not divide layers (5)"},
 		{"base: base.yaml\nset: {slope: 22}\n",
 			"study.yaml:2:14: slope: 22 has no unit; an angle must say deg or rad, as in 22 deg"},
-		{"base: base.yaml\nruns: [{layers: }]\n",
-			"study.yaml:2:17: layers: the value is missing"},
+		{"base: base.yaml\nruns: [{layers: }]\n", "study.yaml:2:17: layers: the value is missing"},
 		{"base: none.yaml\n",
 			"study.yaml:1:7: base: cannot read none.yaml: No such file or directory"},
 		{"base: base.yaml\ntables: [{rows: layers, metric: steps}]\n",
@@ -348,8 +347,8 @@ static void what_is_wrong_is_refused_with_its_place(void **state)
 static void a_product_beyond_all_bounds_is_refused_before_it_is_made(void **state)
 {
 	char text[8192] = "base: base.yaml\nruns:\n  - {";
-	static const char *const keys[] = {"layers", "domain.cells", "pressure_solver.max_iterations",
-		"checkpoint.every_steps"};
+	static const char *const keys[] = {
+		"layers", "domain.cells", "pressure_solver.max_iterations", "checkpoint.every_steps"};
 
 	(void)state;
 	for (size_t k = 0; k < 4; k++) {
