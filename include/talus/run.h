@@ -8,10 +8,18 @@
 #include "talus/error.h"
 #include "talus/text.h"
 
+enum run_voice {
+	RUN_VOICE_RESULT,   /* one line: how it ended */
+	RUN_VOICE_WARNING,  /* one line: what is not as it should be, and is dealt with */
+	RUN_VOICE_PROGRESS, /* how far it is, to be written over; at most 5 a second; "" at the end */
+};
+
 struct run_options {
-	bool progress; /* a progress line on stderr while it runs (when that is a terminal) */
-	bool quiet;    /* nothing on stdout */
+	bool progress; /* tell progress */
+	bool quiet;    /* do not tell results */
 	bool retry;    /* start a failed run anew */
+	/* Told every line meant for people; NULL: nobody is. */
+	void (*say)(enum run_voice voice, const char *line);
 };
 
 /* Bring the run in `folder` (made when missing) to its end: start, resume, or find it complete, and
@@ -20,7 +28,7 @@ struct run_options {
  * EX_SOFTWARE, EX_INTERRUPTED (stopped by a signal with a checkpoint written, or locked by another
  * process). */
 int run_execute(const struct config *config, const char *folder, const struct run_options *options,
-    struct error *err);
+	struct error *err);
 
 enum run_state {
 	RUN_STATE_PENDING,     /* no run file */

@@ -43,9 +43,9 @@ char *clock_span(double span, char buffer[CLOCK_SPAN_SIZE])
 		(void)snprintf(buffer, CLOCK_SPAN_SIZE, span < 10 ? "%.1f s" : "%.0f s", span);
 	else if (minutes < 60)
 		(void)snprintf(
-		    buffer, CLOCK_SPAN_SIZE, "%.0f min %02.0f s", minutes, floor(span - 60 * minutes));
+			buffer, CLOCK_SPAN_SIZE, "%.0f min %02.0f s", minutes, floor(span - 60 * minutes));
 	else
 		(void)snprintf(
-		    buffer, CLOCK_SPAN_SIZE, "%.0f h %02.0f min", floor(minutes / 60), fmod(minutes, 60));
+			buffer, CLOCK_SPAN_SIZE, "%.0f h %02.0f min", floor(minutes / 60), fmod(minutes, 60));
 	return buffer;
 }

@@ -6,7 +6,7 @@
 #include <xxhash.h>
 
 void digest_of_two(
-    const void *a, size_t a_size, const void *b, size_t b_size, unsigned char digest[DIGEST_SIZE])
+	const void *a, size_t a_size, const void *b, size_t b_size, unsigned char digest[DIGEST_SIZE])
 {
 	XXH3_state_t state;
 	XXH128_canonical_t canonical;

@@ -25,7 +25,7 @@ int error_set(struct error *err, int code, const char *format, ...)
 }
 
 int error_at(
-    struct error *err, int code, const char *file, int line, int column, const char *format, ...)
+	struct error *err, int code, const char *file, int line, int column, const char *format, ...)
 {
 	va_list args;
 

@@ -52,7 +52,7 @@ static int open_to_read(const char *path, size_t *size, struct error *err)
 
 	if (fd < 0)
 		return error_at(err, errno == ENOENT || errno == ENOTDIR ? EX_NOINPUT : EX_IOERR, path, 0,
-		    0, "cannot be opened: %s", strerror(errno));
+			0, "cannot be opened: %s", strerror(errno));
 	if (fstat(fd, &st) != 0 || !S_ISREG(st.st_mode)) {
 		(void)close(fd);
 		return error_at(err, EX_IOERR, path, 0, 0, "is not a regular file");
@@ -92,7 +92,7 @@ done:
 }
 
 int file_read_end(
-    const char *path, unsigned char *bytes, size_t count, size_t *size, struct error *err)
+	const char *path, unsigned char *bytes, size_t count, size_t *size, struct error *err)
 {
 	int fd = open_to_read(path, size, err), result = -1;
 	ssize_t n;
@@ -106,7 +106,7 @@ int file_read_end(
 	n = read_fully(fd, bytes, count, (off_t)(*size - count));
 	if (n != (ssize_t)count) {
 		error_at(err, EX_IOERR, path, 0, 0, "cannot be read: %s",
-		    n < 0 ? strerror(errno) : "it became shorter");
+			n < 0 ? strerror(errno) : "it became shorter");
 		goto done;
 	}
 	result = 0;
@@ -130,7 +130,7 @@ int file_make_folders(const char *path, struct error *err)
 		*end = '\0';
 		if (mkdir(copy, 0777) != 0 && (errno != EEXIST || !file_is_folder(copy)))
 			result = error_at(err, EX_CANTCREAT, copy, 0, 0, "cannot make this folder: %s",
-			    strerror(errno == EEXIST ? ENOTDIR : errno));
+				strerror(errno == EEXIST ? ENOTDIR : errno));
 		*end = kept;
 	}
 	free(copy);
@@ -152,7 +152,7 @@ char *file_size_text(double bytes, char buffer[FILE_SIZE_TEXT])
 
 /* what went wrong with `name` in the folder of `place`, by errno */
 static int fail(const struct file_place *place, const char *name, int code, const char *deed,
-    size_t size, struct error *err)
+	size_t size, struct error *err)
 {
 	int number = errno;
 	char path[sizeof err->file], room[FILE_SIZE_TEXT];
@@ -160,13 +160,13 @@ static int fail(const struct file_place *place, const char *name, int code, cons
 	(void)snprintf(path, sizeof path, "%s/%s", place->folder, name);
 	if (number == ENOSPC || number == EDQUOT || number == EFBIG)
 		return error_at(err, code, path, 0, 0, "cannot %s: %s; %s are needed", deed,
-		    strerror(number), file_size_text((double)size, room));
+			strerror(number), file_size_text((double)size, room));
 	return error_at(err, code, path, 0, 0, "cannot %s: %s", deed, strerror(number));
 }
 
 /* write the new file under its temporary name */
 static int write_new(int folder, const struct file_place *place, const char *name,
-    const struct file_part *parts, size_t count, struct error *err)
+	const struct file_part *parts, size_t count, struct error *err)
 {
 	size_t size = 0;
 	int fd = openat(folder, name, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
@@ -219,7 +219,7 @@ static int keep_present(int folder, const struct file_place *place, struct error
 }
 
 int file_replace(
-    const struct file_place *place, const struct file_part *parts, size_t count, struct error *err)
+	const struct file_place *place, const struct file_part *parts, size_t count, struct error *err)
 {
 	char name[256];
 	int result = -1;
@@ -227,7 +227,7 @@ int file_replace(
 
 	if (folder < 0)
 		return error_at(
-		    err, EX_CANTCREAT, place->folder, 0, 0, "cannot open this folder: %s", strerror(errno));
+			err, EX_CANTCREAT, place->folder, 0, 0, "cannot open this folder: %s", strerror(errno));
 	(void)snprintf(name, sizeof name, "%s.tmp", place->name);
 	if (write_new(folder, place, name, parts, count, err) != 0)
 		goto done;

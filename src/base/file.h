@@ -13,7 +13,7 @@ int file_read(const char *path, unsigned char **bytes, size_t *size, struct erro
 
 /* Read the last `count` bytes of `path`, and tell its size. EX_DATAERR when it is shorter. */
 int file_read_end(
-    const char *path, unsigned char *bytes, size_t count, size_t *size, struct error *err);
+	const char *path, unsigned char *bytes, size_t count, size_t *size, struct error *err);
 
 /* Make folder `path` and those above it where they are missing. EX_CANTCREAT. */
 int file_make_folders(const char *path, struct error *err);
@@ -34,7 +34,7 @@ struct file_place {
  * with `previous` there is in every moment at least one whole file under one of the two names.
  * EX_CANTCREAT: cannot be created; EX_IOERR: anything later. What was there stays on failure. */
 int file_replace(
-    const struct file_place *place, const struct file_part *parts, size_t count, struct error *err);
+	const struct file_place *place, const struct file_part *parts, size_t count, struct error *err);
 
 /* Add `text` to the end of `path`, made when missing. EX_CANTCREAT, EX_IOERR. */
 int file_append(const char *path, const char *text, struct error *err);

@@ -32,11 +32,11 @@ int lock_take(struct lock *lock, const char *path, struct error *err)
 			return error_at(err, EX_IOERR, path, 0, 0, "cannot be locked: %s", strerror(number));
 		(void)lock_holder(path, holder);
 		return error_at(err, EX_INTERRUPTED, path, 0, 0, "is locked by %s",
-		    *holder ? holder : "another process");
+			*holder ? holder : "another process");
 	}
 	/* for people; the lock holds without it */
 	length =
-	    snprintf(holder, sizeof holder, "process %ld on %s\n", (long)getpid(), build_host(host));
+		snprintf(holder, sizeof holder, "process %ld on %s\n", (long)getpid(), build_host(host));
 	if (ftruncate(lock->fd, 0) != 0 || pwrite(lock->fd, holder, (size_t)length, 0) != length)
 		return 0;
 	return 0;

@@ -146,7 +146,7 @@ int text_distance(const char *a, const char *b)
 			if (row[2][j - 1] + 1 < best)
 				best = row[2][j - 1] + 1;
 			if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] &&
-			    row[0][j - 2] + 1 < best)
+				row[0][j - 2] + 1 < best)
 				best = row[0][j - 2] + 1;
 			row[2][j] = best;
 		}

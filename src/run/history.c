@@ -36,7 +36,7 @@ static int reserve(struct history *history, struct error *err)
 		return 0;
 	if (kept <= history->capacity / 2 && history->capacity) {
 		memmove(history->values, row(history, history->first),
-		    kept * history->width * sizeof *history->values);
+			kept * history->width * sizeof *history->values);
 		history->first = 0;
 		history->count = kept;
 		return 0;
@@ -89,7 +89,7 @@ int history_add(struct history *history, double time, double *values, struct err
 			values[i] = slope(history, 1 + (size_t)series[i].slope_of, series[i].window);
 	/* the last row at or before the window is still needed to interpolate */
 	while (history->first + 1 < history->count &&
-	       row(history, history->first + 1)[0] <= time - history->window)
+		   row(history, history->first + 1)[0] <= time - history->window)
 		history->first++;
 	return 0;
 }
@@ -108,7 +108,7 @@ static bool column_path(const struct model *model, size_t column, char *path, si
 	if (column > 0 && !is_watched(model, column - 1))
 		return false;
 	(void)snprintf(
-	    path, size, "/checkpoint/history/%s", column ? model->series[column - 1].name : "time");
+		path, size, "/checkpoint/history/%s", column ? model->series[column - 1].name : "time");
 	return true;
 }
 
@@ -128,11 +128,11 @@ void history_write(const struct history *history, struct image *image)
 		for (size_t i = 0; column && i < count; i++)
 			column[i] = row(history, history->first + i)[k];
 		image_dataset(image, &(struct image_data){.path = path,
-		                         .units = series ? series->units : "s",
-		                         .long_name = series ? series->long_name : "time of the steps",
-		                         .rank = 1,
-		                         .extent = {count},
-		                         .values = column});
+								 .units = series ? series->units : "s",
+								 .long_name = series ? series->long_name : "time of the steps",
+								 .rank = 1,
+								 .extent = {count},
+								 .values = column});
 	}
 	free(column);
 }
@@ -149,7 +149,7 @@ int history_read(struct history *history, struct run_file *file, struct error *e
 		if (data.rank != 1 || data.extent[0] < 1 || (k && data.extent[0] != history->count)) {
 			free(data.values);
 			return error_at(err, EX_DATAERR, run_file_path(file), 0, 0,
-			    "dataset '%s' has the wrong length", path);
+				"dataset '%s' has the wrong length", path);
 		}
 		if (k == 0) {
 			history->count = history->capacity = data.extent[0];

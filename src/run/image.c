@@ -26,7 +26,7 @@ static hid_t dataset_properties(void)
 	hid_t list = H5Pcreate(H5P_DATASET_CREATE);
 
 	if (list >= 0 && (H5Pset_obj_track_times(list, false) < 0 ||
-	                     H5Pset_fill_time(list, H5D_FILL_TIME_NEVER) < 0)) {
+						 H5Pset_fill_time(list, H5D_FILL_TIME_NEVER) < 0)) {
 		(void)H5Pclose(list);
 		return -1;
 	}
@@ -68,12 +68,12 @@ int image_create(size_t payload, struct image **out, struct error *err)
 	creation = H5Pcreate(H5P_FILE_CREATE);
 	/* grown once: metadata of a run are some 100 kB; names are listed in the order of creation */
 	if (good(image, H5Pset_fapl_core(access, payload + (1U << 18), false)) &&
-	    good(image, H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18)) &&
-	    good(image, H5Pset_obj_track_times(creation, false)) &&
-	    good(image,
-	        H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED)) &&
-	    good(image,
-	        H5Pset_attr_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED)))
+		good(image, H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18)) &&
+		good(image, H5Pset_obj_track_times(creation, false)) &&
+		good(image,
+			H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED)) &&
+		good(image,
+			H5Pset_attr_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED)))
 		image->file = H5Fcreate("image", H5F_ACC_TRUNC, creation, access);
 	(void)H5Pclose(access);
 	(void)H5Pclose(creation);
@@ -90,7 +90,7 @@ int image_reopen(const unsigned char *bytes, size_t size, struct image **out, st
 
 /* An attribute of any type; one that exists is replaced. */
 static void attribute(struct image *image, hid_t object, const char *name, hid_t type,
-    hid_t memory_type, const void *value)
+	hid_t memory_type, const void *value)
 {
 	hid_t space, id;
 
@@ -116,8 +116,8 @@ static void text_attribute(struct image *image, hid_t object, const char *name, 
 		return;
 	type = H5Tcopy(H5T_C_S1);
 	if (good(image, type) && good(image, H5Tset_size(type, length ? length : 1)) &&
-	    good(image, H5Tset_strpad(type, H5T_STR_NULLPAD)) &&
-	    good(image, H5Tset_cset(type, H5T_CSET_UTF8)))
+		good(image, H5Tset_strpad(type, H5T_STR_NULLPAD)) &&
+		good(image, H5Tset_cset(type, H5T_CSET_UTF8)))
 		attribute(image, object, name, type, type, value);
 	(void)H5Tclose(type);
 }
@@ -145,8 +145,8 @@ void image_group(struct image *image, const char *path)
 		return;
 	list = H5Pcreate(H5P_GROUP_CREATE);
 	if (good(image, list) && good(image, H5Pset_obj_track_times(list, false)) &&
-	    good(image,
-	        H5Pset_link_creation_order(list, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED))) {
+		good(image,
+			H5Pset_link_creation_order(list, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED))) {
 		group = H5Gcreate2(image->file, path, H5P_DEFAULT, list, H5P_DEFAULT);
 		if (good(image, group))
 			(void)H5Gclose(group);
@@ -166,7 +166,7 @@ static hid_t write_dataset(struct image *image, const struct image_data *data)
 		extent[i] = data->extent[i];
 	space = data->rank ? H5Screate_simple(data->rank, extent, NULL) : H5Screate(H5S_SCALAR);
 	id = H5Dcreate2(image->file, data->path, data->whole ? H5T_STD_I64LE : H5T_IEEE_F64LE, space,
-	    H5P_DEFAULT, image->creation, H5P_DEFAULT);
+		H5P_DEFAULT, image->creation, H5P_DEFAULT);
 	(void)H5Sclose(space);
 	if (!good(image, id))
 		return -1;
@@ -201,10 +201,10 @@ static hid_t nameless_scale(struct image *image, size_t extent)
 	if (H5Lexists(image->file, path, H5P_DEFAULT) > 0)
 		return H5Dopen2(image->file, path, H5P_DEFAULT);
 	(void)snprintf(
-	    name, sizeof name, "This is a netCDF dimension but not a netCDF variable.%10zu", extent);
+		name, sizeof name, "This is a netCDF dimension but not a netCDF variable.%10zu", extent);
 	space = H5Screate_simple(1, &length, NULL);
 	id = H5Dcreate2(
-	    image->file, path, H5T_IEEE_F32BE, space, H5P_DEFAULT, image->creation, H5P_DEFAULT);
+		image->file, path, H5T_IEEE_F32BE, space, H5P_DEFAULT, image->creation, H5P_DEFAULT);
 	(void)H5Sclose(space);
 	if (!good(image, id))
 		return -1;
@@ -222,7 +222,7 @@ void image_dataset(struct image *image, const struct image_data *data)
 		return;
 	for (int i = 0; i < data->rank && !image->failed; i++) {
 		hid_t scale = data->scales[i] ? H5Dopen2(image->file, data->scales[i], H5P_DEFAULT)
-		                              : nameless_scale(image, data->extent[i]);
+									  : nameless_scale(image, data->extent[i]);
 
 		if (!good(image, scale))
 			break;
@@ -233,7 +233,7 @@ void image_dataset(struct image *image, const struct image_data *data)
 }
 
 int image_finish(
-    struct image *image, size_t room, unsigned char **bytes, size_t *size, struct error *err)
+	struct image *image, size_t room, unsigned char **bytes, size_t *size, struct error *err)
 {
 	ssize_t length = -1;
 	int result = -1;

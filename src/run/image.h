@@ -41,6 +41,6 @@ void image_scale(struct image *image, const struct image_data *data);
 /* End: `*bytes` (free) holds the image of `*size` bytes, with `room` more bytes behind it. The image
  * is freed in every case. */
 int image_finish(
-    struct image *image, size_t room, unsigned char **bytes, size_t *size, struct error *err);
+	struct image *image, size_t room, unsigned char **bytes, size_t *size, struct error *err);
 
 #endif

@@ -1,7 +1,7 @@
 #include "talus/model.h"
 
 static const struct model *const models[] = {
-    [MODEL_DRY] = &dry_model,
+	[MODEL_DRY] = &dry_model,
 };
 
 const struct model *model_find(const struct config *config)

@@ -20,7 +20,7 @@ static size_t profile_size(const struct recorder *r, const struct profile *profi
 }
 
 int recorder_create(const struct model *model, const struct config *config, const struct axes *axes,
-    struct recorder **out, struct error *err)
+	struct recorder **out, struct error *err)
 {
 	struct recorder *r = calloc(1, sizeof *r);
 	size_t most = 0;
@@ -120,7 +120,7 @@ int recorder_reserve_profiles(struct recorder *r, size_t rows, struct error *err
 
 /* One profile time; `weight` is the place of `time` between the states before (0) and now (1). */
 static int add_profile(struct recorder *r, const struct model_state *state, double time,
-    double weight, struct error *err)
+	double weight, struct error *err)
 {
 	TRY(recorder_reserve_profiles(r, r->profile_rows + 1, err));
 	for (size_t p = 0; p < r->model->profile_count; p++) {
@@ -149,7 +149,7 @@ static bool is_due(const struct recorder *r, double time)
 }
 
 static int add_profiles(struct recorder *r, const struct model_state *state,
-    const struct recorder_step *step, struct error *err)
+	const struct recorder_step *step, struct error *err)
 {
 	while (is_due(r, step->to)) {
 		double time = r->config->output.profiles_at.values[r->next_profile++];
@@ -178,7 +178,7 @@ static bool is_sampled(struct recorder *r, const struct recorder_step *step)
 }
 
 static int add_series(struct recorder *r, const struct model_state *state,
-    const struct recorder_step *step, struct error *err)
+	const struct recorder_step *step, struct error *err)
 {
 	const struct model *model = r->model;
 
@@ -213,7 +213,7 @@ int recorder_begin(struct recorder *r, const struct model_state *state, struct e
 }
 
 void recorder_before(
-    struct recorder *r, const struct model_state *state, const struct recorder_step *step)
+	struct recorder *r, const struct model_state *state, const struct recorder_step *step)
 {
 	for (size_t p = 0; is_due(r, step->to) && p < r->model->profile_count; p++)
 		if (!r->model->profiles[p].constant)
@@ -221,7 +221,7 @@ void recorder_before(
 }
 
 int recorder_after(struct recorder *r, const struct model_state *state,
-    const struct recorder_step *step, struct error *err)
+	const struct recorder_step *step, struct error *err)
 {
 	TRY(add_series(r, state, step, err));
 	return add_profiles(r, state, step, err);

@@ -11,7 +11,7 @@ struct recorder;
 
 /* `config` and the model's tables must outlive the recorder. EX_SOFTWARE. */
 int recorder_create(const struct model *model, const struct config *config, const struct axes *axes,
-    struct recorder **out, struct error *err);
+	struct recorder **out, struct error *err);
 void recorder_free(struct recorder *recorder); /* NULL-safe */
 
 /* The state at t = 0. EX_SOFTWARE. */
@@ -25,11 +25,11 @@ struct recorder_step {
 
 /* Before a step: keeps the fields that profiles within it need. */
 void recorder_before(
-    struct recorder *recorder, const struct model_state *state, const struct recorder_step *step);
+	struct recorder *recorder, const struct model_state *state, const struct recorder_step *step);
 
 /* After the step. EX_SOFTWARE: a series or profile cannot grow. */
 int recorder_after(struct recorder *recorder, const struct model_state *state,
-    const struct recorder_step *step, struct error *err);
+	const struct recorder_step *step, struct error *err);
 
 /* Series and profiles into the root, and into /checkpoint what recording on needs. */
 void recorder_write(const struct recorder *recorder, struct image *image);

@@ -7,8 +7,8 @@
 #include "run/run_file_parts.h"
 
 static const struct series own_series[RECORDER_OWN] = {
-    [RECORDER_TIME] = {.name = "time", .units = "s", .long_name = "simulated time"},
-    [RECORDER_DT] = {.name = "dt", .units = "s", .long_name = "length of the time step"},
+	[RECORDER_TIME] = {.name = "time", .units = "s", .long_name = "simulated time"},
+	[RECORDER_DT] = {.name = "dt", .units = "s", .long_name = "length of the time step"},
 };
 
 static const struct series *series_at(const struct recorder *r, size_t column)
@@ -21,13 +21,13 @@ static void write_series(const struct recorder *r, struct image *image)
 	for (size_t i = 0; i < RECORDER_OWN + r->model->series_count; i++) {
 		const struct series *series = series_at(r, i);
 		struct image_data data = {.path = series->name,
-		    .units = series->units,
-		    .long_name = series->long_name,
-		    .whole = series->whole,
-		    .rank = 1,
-		    .extent = {r->rows},
-		    .scales = {"time"},
-		    .values = r->columns[i]};
+			.units = series->units,
+			.long_name = series->long_name,
+			.whole = series->whole,
+			.rank = 1,
+			.extent = {r->rows},
+			.scales = {"time"},
+			.values = r->columns[i]};
 
 		if (i == RECORDER_TIME) {
 			data.standard_name = "time";
@@ -41,27 +41,27 @@ static void write_series(const struct recorder *r, struct image *image)
 static void write_axes(const struct recorder *r, struct image *image)
 {
 	const struct image_data scales[] = {
-	    {.path = "profile_time",
-	        .units = "s",
-	        .long_name = "simulated time of the profiles",
-	        .standard_name = "time",
-	        .extent = {r->profile_rows},
-	        .values = r->profile_times},
-	    {.path = "x",
-	        .units = "m",
-	        .long_name = "distance along the slope, cell centres",
-	        .extent = {r->cells},
-	        .values = r->axes.x},
-	    {.path = "layer",
-	        .units = "1",
-	        .long_name = "relative height of the middle of a layer",
-	        .extent = {r->layers},
-	        .values = r->axes.layer},
-	    {.path = "interface",
-	        .units = "1",
-	        .long_name = "relative height of a layer interface",
-	        .extent = {r->layers + 1},
-	        .values = r->axes.interface},
+		{.path = "profile_time",
+			.units = "s",
+			.long_name = "simulated time of the profiles",
+			.standard_name = "time",
+			.extent = {r->profile_rows},
+			.values = r->profile_times},
+		{.path = "x",
+			.units = "m",
+			.long_name = "distance along the slope, cell centres",
+			.extent = {r->cells},
+			.values = r->axes.x},
+		{.path = "layer",
+			.units = "1",
+			.long_name = "relative height of the middle of a layer",
+			.extent = {r->layers},
+			.values = r->axes.layer},
+		{.path = "interface",
+			.units = "1",
+			.long_name = "relative height of a layer interface",
+			.extent = {r->layers + 1},
+			.values = r->axes.interface},
 	};
 
 	for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
@@ -78,9 +78,9 @@ static void write_profile(const struct recorder *r, size_t index, struct image *
 {
 	const struct profile *profile = &r->model->profiles[index];
 	struct image_data data = {.path = profile->name,
-	    .units = profile->units,
-	    .long_name = profile->long_name,
-	    .values = r->fields[index].rows};
+		.units = profile->units,
+		.long_name = profile->long_name,
+		.values = r->fields[index].rows};
 
 	if (!profile->constant) {
 		data.extent[data.rank] = r->profile_rows;
@@ -109,22 +109,22 @@ static void write_checkpoint(const struct recorder *r, struct image *image)
 	char path[256];
 
 	image_dataset(image, &(struct image_data){.path = "/checkpoint/next_sample",
-	                         .units = "1",
-	                         .long_name = "next multiple of series_every that is due",
-	                         .whole = true,
-	                         .values = &r->next_sample});
+							 .units = "1",
+							 .long_name = "next multiple of series_every that is due",
+							 .whole = true,
+							 .values = &r->next_sample});
 	image_dataset(image, &(struct image_data){.path = "/checkpoint/next_profile",
-	                         .units = "1",
-	                         .long_name = "index of the next time in profiles_at",
-	                         .whole = true,
-	                         .values = &next_profile});
+							 .units = "1",
+							 .long_name = "index of the next time in profiles_at",
+							 .whole = true,
+							 .values = &next_profile});
 	image_group(image, "/checkpoint/sums");
 	for (size_t i = 0; i < r->model->series_count; i++)
 		if (sum_path(r, i, path, sizeof path))
 			image_dataset(image, &(struct image_data){.path = path,
-			                         .units = r->model->series[i].units,
-			                         .long_name = r->model->series[i].long_name,
-			                         .values = &r->sums[i]});
+									 .units = r->model->series[i].units,
+									 .long_name = r->model->series[i].long_name,
+									 .values = &r->sums[i]});
 	history_write(&r->history, image);
 }
 

@@ -47,21 +47,21 @@ static int verify(struct run_file *file, size_t size, bool *trailer, struct erro
 
 	if (size < TRAILER_SIZE)
 		return error_at(err, EX_DATAERR, file->path, 0, 0,
-		    "is not a run file, or what is left of one: it has %zu bytes", size);
+			"is not a run file, or what is left of one: it has %zu bytes", size);
 	end = file->bytes + size - TRAILER_SIZE;
 	*trailer = trailer_read(end, &file->summary, &image_size);
 	if (*trailer && image_size != size - TRAILER_SIZE)
 		return error_at(err, EX_DATAERR, file->path, 0, 0,
-		    "is damaged: it should have %llu bytes and has %zu",
-		    (unsigned long long)image_size + TRAILER_SIZE, size);
+			"is damaged: it should have %llu bytes and has %zu",
+			(unsigned long long)image_size + TRAILER_SIZE, size);
 	if (*trailer && !trailer_matches(end, file->bytes, size - TRAILER_SIZE))
 		return error_at(
-		    err, EX_DATAERR, file->path, 0, 0, "is damaged: its content does not match its digest");
+			err, EX_DATAERR, file->path, 0, 0, "is damaged: its content does not match its digest");
 	if (!*trailer && !length)
 		return error_at(err, EX_DATAERR, file->path, 0, 0, "is not a run file");
 	if (!*trailer && length != size)
 		return error_at(
-		    err, EX_DATAERR, file->path, 0, 0, "is damaged: its trailer is missing or changed");
+			err, EX_DATAERR, file->path, 0, 0, "is damaged: its trailer is missing or changed");
 	file->size = *trailer ? size - TRAILER_SIZE : size;
 	return 0;
 }
@@ -74,9 +74,9 @@ static int summarise(struct run_file *file, struct error *err)
 	int result = -1;
 
 	if (run_file_text(file, "status", &status, err) != 0 ||
-	    run_file_text(file, "config_hash", &hash, err) != 0 ||
-	    run_file_fill(file, "/checkpoint/step", &step, 1, err) != 0 ||
-	    run_file_fill(file, "/checkpoint/time", &time, 1, err) != 0)
+		run_file_text(file, "config_hash", &hash, err) != 0 ||
+		run_file_fill(file, "/checkpoint/step", &step, 1, err) != 0 ||
+		run_file_fill(file, "/checkpoint/time", &time, 1, err) != 0)
 		goto done;
 	file->summary = (struct run_summary){.step = (uint64_t)step, .time = time};
 	for (int i = RUN_UNFINISHED; i <= RUN_FAILED; i++)
@@ -111,7 +111,7 @@ int run_file_open(const char *path, struct run_file **out, const char **warning,
 		goto failed;
 	(void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 	file->id = H5LTopen_file_image(
-	    file->bytes, file->size, H5LT_FILE_IMAGE_DONT_COPY | H5LT_FILE_IMAGE_DONT_RELEASE);
+		file->bytes, file->size, H5LT_FILE_IMAGE_DONT_COPY | H5LT_FILE_IMAGE_DONT_RELEASE);
 	if (file->id < 0) {
 		error_at(err, EX_DATAERR, path, 0, 0, "is not a run file: HDF5 cannot open it");
 		goto failed;
@@ -152,7 +152,7 @@ int run_file_peek(const char *path, struct run_summary *summary, struct error *e
 
 /* Open one generation; what is wrong with it, or its warning, goes to `warning`. */
 static int open_generation(const char *folder, const char *name, struct run_file **out,
-    struct text *warning, struct error *err)
+	struct text *warning, struct error *err)
 {
 	struct text path = {0};
 	const char *remark = NULL;
@@ -170,7 +170,7 @@ static int open_generation(const char *folder, const char *name, struct run_file
 }
 
 int run_file_open_newest(
-    const char *folder, struct run_file **out, struct text *warning, struct error *err)
+	const char *folder, struct run_file **out, struct text *warning, struct error *err)
 {
 	struct error newest = {0}, previous = {0};
 
@@ -196,8 +196,8 @@ int run_file_open_newest(
 		char first[sizeof newest.text / 2], second[sizeof newest.text / 2];
 
 		error_at(err, EX_DATAERR, folder, 0, 0, "no generation of its run file is good: %s; %s",
-		    error_format(&newest, first, sizeof first),
-		    error_format(&previous, second, sizeof second));
+			error_format(&newest, first, sizeof first),
+			error_format(&previous, second, sizeof second));
 	}
 	return -1;
 }
@@ -226,15 +226,15 @@ const unsigned char *run_file_image(const struct run_file *file, size_t *size)
 static int attribute_error(struct run_file *file, const char *name, struct error *err)
 {
 	return error_at(err, EX_DATAERR, file->path, 0, 0,
-	    "attribute '%s' is absent or not of the right type", name);
+		"attribute '%s' is absent or not of the right type", name);
 }
 
 int run_file_text(struct run_file *file, const char *name, struct text *out, struct error *err)
 {
 	hid_t id = H5Aopen(file->id, name, H5P_DEFAULT), type = id < 0 ? -1 : H5Aget_type(id);
 	size_t size = type < 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0
-	                  ? 0
-	                  : H5Tget_size(type);
+					  ? 0
+					  : H5Tget_size(type);
 	char *value = size ? calloc(1, size + 1) : NULL;
 	int result = -1;
 
@@ -261,7 +261,7 @@ int run_file_real(struct run_file *file, const char *name, double *out, struct e
 
 	/* one number: HDF5 itself refuses to convert text to it */
 	if (space < 0 || H5Sget_simple_extent_npoints(space) != 1 ||
-	    H5Aread(id, H5T_NATIVE_DOUBLE, out) < 0)
+		H5Aread(id, H5T_NATIVE_DOUBLE, out) < 0)
 		result = attribute_error(file, name, err);
 	if (space >= 0)
 		(void)H5Sclose(space);
@@ -280,7 +280,7 @@ static hid_t open_dataset(struct run_file *file, const char *path, struct datase
 
 	shape->rank = right ? H5Sget_simple_extent_ndims(space) : -1;
 	right = right && shape->rank >= 0 && shape->rank <= 3 &&
-	        H5Sget_simple_extent_dims(space, extent, NULL) >= 0;
+			H5Sget_simple_extent_dims(space, extent, NULL) >= 0;
 	for (int i = 0; i < 3; i++)
 		shape->extent[i] = extent[i];
 	if (space >= 0)
@@ -306,7 +306,7 @@ static size_t shape_count(const struct dataset *shape)
 }
 
 int run_file_dataset(
-    struct run_file *file, const char *path, struct dataset *out, struct error *err)
+	struct run_file *file, const char *path, struct dataset *out, struct error *err)
 {
 	size_t count;
 	hid_t id = open_dataset(file, path, out);
@@ -332,7 +332,7 @@ int run_file_dataset(
 }
 
 int run_file_fill(
-    struct run_file *file, const char *path, double *values, size_t count, struct error *err)
+	struct run_file *file, const char *path, double *values, size_t count, struct error *err)
 {
 	struct dataset shape;
 	hid_t id = open_dataset(file, path, &shape);
@@ -342,7 +342,7 @@ int run_file_fill(
 		return error_at(err, EX_DATAERR, file->path, 0, 0, "holds no dataset '%s'", path);
 	if (shape_count(&shape) != count)
 		result = error_at(err, EX_DATAERR, file->path, 0, 0,
-		    "dataset '%s' has %zu values instead of %zu", path, shape_count(&shape), count);
+			"dataset '%s' has %zu values instead of %zu", path, shape_count(&shape), count);
 	else if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
 		result = error_at(err, EX_DATAERR, file->path, 0, 0, "dataset '%s' cannot be read", path);
 	(void)H5Dclose(id);

@@ -23,7 +23,7 @@ bool run_file_has(struct run_file *file, const char *path);
 
 /* Read a dataset of exactly `count` values. EX_DATAERR. */
 int run_file_fill(
-    struct run_file *file, const char *path, double *values, size_t count, struct error *err);
+	struct run_file *file, const char *path, double *values, size_t count, struct error *err);
 
 /* "unfinished", "complete", "failed" */
 const char *run_status_name(enum run_status status);

@@ -54,7 +54,7 @@ static uint64_t get_64(const unsigned char *at)
 }
 
 void trailer_write(const struct run_summary *summary, const void *image, size_t image_size,
-    unsigned char trailer[TRAILER_SIZE])
+	unsigned char trailer[TRAILER_SIZE])
 {
 	uint64_t time;
 
@@ -70,25 +70,25 @@ void trailer_write(const struct run_summary *summary, const void *image, size_t 
 }
 
 bool trailer_read(
-    const unsigned char trailer[TRAILER_SIZE], struct run_summary *summary, uint64_t *image_size)
+	const unsigned char trailer[TRAILER_SIZE], struct run_summary *summary, uint64_t *image_size)
 {
 	uint64_t time = get_64(trailer + AT_TIME);
 	uint32_t status = get_32(trailer + AT_STATUS);
 
 	if (memcmp(trailer + AT_MAGIC, magic, sizeof magic) != 0 ||
-	    get_32(trailer + AT_VERSION) != VERSION || status > RUN_FAILED)
+		get_32(trailer + AT_VERSION) != VERSION || status > RUN_FAILED)
 		return false;
 	summary->status = (enum run_status)status;
 	summary->step = get_64(trailer + AT_STEP);
 	memcpy(&summary->time, &time, sizeof time);
 	(void)snprintf(summary->config_hash, sizeof summary->config_hash, "%016" PRIx64,
-	    get_64(trailer + AT_HASH));
+		get_64(trailer + AT_HASH));
 	*image_size = get_64(trailer + AT_SIZE);
 	return true;
 }
 
 bool trailer_matches(
-    const unsigned char trailer[TRAILER_SIZE], const void *image, size_t image_size)
+	const unsigned char trailer[TRAILER_SIZE], const void *image, size_t image_size)
 {
 	unsigned char digest[DIGEST_SIZE];
 

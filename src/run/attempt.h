@@ -1,0 +1,50 @@
+/* One attempt at a run: what its parts share from taking the lock to leaving it. */
+#ifndef TALUS_ATTEMPT_H
+#define TALUS_ATTEMPT_H
+
+#include <stdint.h>
+
+#include "base/clock.h"
+#include "run/recorder.h"
+#include "talus/model.h"
+#include "talus/run.h"
+#include "talus/run_file.h"
+
+struct attempt {
+	const struct model *model;
+	const struct config *config;
+	const char *folder;
+	const struct run_options *options;
+
+	struct model_state *state;
+	struct recorder *recorder;
+	uint64_t step; /* steps done */
+	double time;   /* simulated, s */
+
+	char config_hash[CONFIG_HASH_SIZE];
+	char created[CLOCK_STAMP_SIZE]; /* when the run was begun */
+	int number;                     /* of this attempt, from 1 */
+	double cpu_before;              /* of earlier attempts, up to the checkpoint taken up, s */
+	double cpu_begin;               /* of the process when this attempt began, s */
+	bool keep_newest;               /* run.h5 is good, and is kept as the previous generation */
+
+	double wall_begin, time_begin;   /* where this attempt began: for the time left */
+	double status_due, progress_due; /* moments on the wall clock */
+	bool status_failed;              /* a status could not be written, and that was told */
+};
+
+double attempt_cpu(const struct attempt *attempt);       /* of all attempts, s */
+double attempt_wall_left(const struct attempt *attempt); /* estimate, s; NaN: unknown */
+
+/* A line for people, if they want to hear that voice. */
+void attempt_say(const struct attempt *attempt, enum run_voice voice, const char *format, ...)
+	__attribute__((format(printf, 3, 4)));
+
+/* A line for run.log, with time and attempt. A log that cannot be written stops nobody. */
+void attempt_log(const struct attempt *attempt, const char *format, ...)
+	__attribute__((format(printf, 2, 3)));
+
+/* Called after each step: progress and status.yaml, where they are due. */
+void attempt_tick(struct attempt *attempt);
+
+#endif

@@ -1,0 +1,168 @@
+#include "run/checkpoint.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/build.h"
+#include "base/file.h"
+#include "run/run_file_parts.h"
+#include "run/trailer.h"
+
+static void write_attributes(
+	const struct attempt *attempt, enum run_status status, const char *config, struct image *image)
+{
+	char host[BUILD_HOST_SIZE], title[128];
+
+	(void)snprintf(title, sizeof title, "Talus run of the %s model", attempt->model->name);
+	image_text(image, "Conventions", "CF-1.10");
+	image_text(image, "title", title);
+	image_text(image, "model", attempt->model->name);
+	image_text(image, "status", run_status_name(status));
+	image_text(image, "created", attempt->created);
+	image_whole(image, "attempts", attempt->number);
+	image_real(image, "cpu_seconds", attempt_cpu(attempt));
+	image_text(image, "talus_version", TALUS_VERSION);
+	image_whole(image, "numerics_version", attempt->model->numerics_version);
+	image_text(image, "git_revision", build_revision());
+	image_text(image, "compiler", build_compiler());
+	image_text(image, "compiler_flags", build_flags());
+	image_text(image, "host", build_host(host));
+	image_text(image, "config_hash", attempt->config_hash);
+	image_text(image, "config", config);
+}
+
+/* Where the array of the model's state lies in the file. */
+static const char *array_path(const struct array *array, char path[256])
+{
+	(void)snprintf(path, 256, "/checkpoint/state/%s", array->name);
+	return path;
+}
+
+static void write_state(const struct attempt *attempt, struct image *image)
+{
+	struct array list[MODEL_ARRAYS_MAX];
+	size_t count = attempt->model->arrays(attempt->state, list);
+	double step = (double)attempt->step;
+	char path[256], name[256];
+
+	image_group(image, "/checkpoint");
+	image_dataset(image, &(struct image_data){.path = "/checkpoint/step",
+							 .units = "1",
+							 .long_name = "steps done",
+							 .whole = true,
+							 .values = &step});
+	image_dataset(image, &(struct image_data){.path = "/checkpoint/time",
+							 .units = "s",
+							 .long_name = "simulated time",
+							 .values = &attempt->time});
+	image_group(image, "/checkpoint/state");
+	for (size_t i = 0; i < count; i++) {
+		(void)snprintf(name, sizeof name, "exact state of the model: %s", list[i].name);
+		image_dataset(image, &(struct image_data){.path = array_path(&list[i], path),
+								 .units = "1",
+								 .long_name = name,
+								 .rank = 2,
+								 .extent = {list[i].extent[0], list[i].extent[1]},
+								 .values = list[i].data});
+	}
+}
+
+static size_t state_size(const struct attempt *attempt)
+{
+	struct array list[MODEL_ARRAYS_MAX];
+	size_t count = attempt->model->arrays(attempt->state, list), values = 0;
+
+	for (size_t i = 0; i < count; i++)
+		values += list[i].extent[0] * list[i].extent[1];
+	return values * sizeof(double);
+}
+
+/* End an image and bring it to disk with its trailer; the image is freed in every case. */
+static int publish(struct attempt *attempt, struct image *image, const struct run_summary *summary,
+	struct error *err)
+{
+	const struct file_place place = {.folder = attempt->folder,
+		.name = RUN_FILE_NEWEST,
+		.previous = attempt->keep_newest ? RUN_FILE_PREVIOUS : NULL,
+		.durable = true};
+	unsigned char *bytes;
+	size_t size;
+	int result;
+
+	TRY(image_finish(image, TRAILER_SIZE, &bytes, &size, err));
+	trailer_write(summary, bytes, size, bytes + size);
+	result = file_replace(&place, &(struct file_part){bytes, size + TRAILER_SIZE}, 1, err);
+	free(bytes);
+	if (result == 0)
+		attempt->keep_newest = true;
+	return result;
+}
+
+int checkpoint_write(struct attempt *attempt, enum run_status status, struct error *err)
+{
+	struct run_summary summary = {.status = status, .step = attempt->step, .time = attempt->time};
+	struct text config = {0};
+	struct image *image;
+
+	memcpy(summary.config_hash, attempt->config_hash, sizeof summary.config_hash);
+	config_print(attempt->config, &config);
+	if (config.failed) {
+		text_clean(&config);
+		return error_memory(err, config.capacity);
+	}
+	if (image_create(state_size(attempt) + recorder_size(attempt->recorder), &image, err) != 0) {
+		text_clean(&config);
+		return -1;
+	}
+	write_attributes(attempt, status, text_string(&config), image);
+	text_clean(&config);
+	write_state(attempt, image);
+	recorder_write(attempt->recorder, image);
+	return publish(attempt, image, &summary, err);
+}
+
+int checkpoint_read(struct attempt *attempt, struct run_file *file, struct error *err)
+{
+	const struct run_summary *summary = run_file_summary(file);
+	struct array list[MODEL_ARRAYS_MAX];
+	size_t count = attempt->model->arrays(attempt->state, list);
+	char path[256];
+
+	for (size_t i = 0; i < count; i++)
+		TRY(run_file_fill(file, array_path(&list[i], path), list[i].data,
+			list[i].extent[0] * list[i].extent[1], err));
+	attempt->model->restored(attempt->state);
+	attempt->step = summary->step;
+	attempt->time = summary->time;
+	return recorder_read(attempt->recorder, file, err);
+}
+
+int checkpoint_fail(struct attempt *attempt, const char *reason, struct error *err)
+{
+	struct run_file *file = NULL;
+	struct run_summary summary;
+	struct text warning = {0};
+	struct image *image;
+	const unsigned char *bytes;
+	size_t size;
+	int result = -1;
+
+	if (run_file_open_newest(attempt->folder, &file, &warning, err) != 0)
+		goto done;
+	bytes = run_file_image(file, &size);
+	if (image_reopen(bytes, size, &image, err) != 0)
+		goto done;
+	summary = *run_file_summary(file);
+	summary.status = RUN_FAILED;
+	attempt->keep_newest = run_file_is_newest(file);
+	image_text(image, "status", run_status_name(RUN_FAILED));
+	image_text(image, "reason", reason);
+	image_whole(image, "attempts", attempt->number);
+	image_real(image, "cpu_seconds", attempt_cpu(attempt));
+	result = publish(attempt, image, &summary, err);
+done:
+	run_file_close(file);
+	text_clean(&warning);
+	return result;
+}

@@ -1,0 +1,94 @@
+#include "run/loop.h"
+
+#include <signal.h>
+#include <string.h>
+
+#include "base/stop.h"
+#include "run/checkpoint.h"
+
+/* A step shorter than this part of the run would never get there. */
+#define SHORTEST 1e-12
+
+/* The next step. Only the end of the run shortens steps, and the last two share what is left, so
+ * that none of them is tiny. */
+static int choose(const struct attempt *attempt, struct recorder_step *step, struct error *err)
+{
+	double end = attempt->config->time.end, left = end - attempt->time;
+	double dt = attempt->model->time_step(attempt->state);
+
+	if (!(dt >= SHORTEST * end) || attempt->time + dt == attempt->time)
+		return error_set(err, EX_FAILED, "the time step has become %g s", dt);
+	*step = (struct recorder_step){.from = attempt->time, .dt = dt, .to = attempt->time + dt};
+	if (left <= dt) {
+		step->dt = left;
+		step->to = end;
+		step->last = true;
+	} else if (left < 2 * dt) {
+		step->dt = left / 2;
+		step->to = attempt->time + step->dt;
+	}
+	return 0;
+}
+
+static int advance(struct attempt *attempt, struct recorder_step *step, struct error *err)
+{
+	TRY(choose(attempt, step, err));
+	recorder_before(attempt->recorder, attempt->state, step);
+	TRY(attempt->model->step(attempt->state, step->dt, err));
+	attempt->step++;
+	attempt->time = step->to;
+	return recorder_after(attempt->recorder, attempt->state, step, err);
+}
+
+/* Checkpoints by wall clock and by steps. */
+struct due {
+	double wall;
+	uint64_t step;
+};
+
+static void due_after(struct due *due, const struct attempt *attempt)
+{
+	due->wall = clock_wall() + attempt->config->checkpoint.every;
+	due->step = attempt->step + (uint64_t)attempt->config->checkpoint.every_steps;
+}
+
+static bool is_due(const struct due *due, const struct attempt *attempt)
+{
+	return (attempt->config->checkpoint.every_steps > 0 && attempt->step >= due->step) ||
+		   (attempt->config->checkpoint.every > 0 && clock_wall() >= due->wall);
+}
+
+static int stop(struct attempt *attempt, bool saved, struct error *err)
+{
+	const char *name = sigabbrev_np(stop_signal());
+
+	if (!saved)
+		TRY(checkpoint_write(attempt, RUN_UNFINISHED, err));
+	return error_set(err, EX_INTERRUPTED,
+		"stopped by SIG%s after step %llu at t = %g s; the same command goes on from there",
+		name ? name : "?", (unsigned long long)attempt->step, attempt->time);
+}
+
+int loop_run(struct attempt *attempt, struct error *err)
+{
+	struct recorder_step step = {0};
+	bool saved = true; /* the present state is in run.h5 */
+	struct due due;
+
+	due_after(&due, attempt);
+	while (!step.last) {
+		if (stop_signal())
+			return stop(attempt, saved, err);
+		if (advance(attempt, &step, err) != 0)
+			return error_context(
+				err, "step %llu at t = %g s", (unsigned long long)attempt->step + 1, attempt->time);
+		saved = false;
+		if (!step.last && is_due(&due, attempt)) {
+			TRY(checkpoint_write(attempt, RUN_UNFINISHED, err));
+			due_after(&due, attempt);
+			saved = true;
+		}
+		attempt_tick(attempt);
+	}
+	return checkpoint_write(attempt, RUN_COMPLETE, err);
+}
