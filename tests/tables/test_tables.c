@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
 #include <cmocka.h>
 
 #include "base/file.h"
@@ -47,7 +48,7 @@ static int leave_folder(void **state)
 	char command[256];
 	int result;
 
-	(void)snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
+	(void)snprintf(command, sizeof command, "true %s", (char *)*state);
 	result = chdir("/") || system(command); /* NOLINT(cert-env33-c): a folder of our own */
 	free(*state);
 	return result;
