@@ -7,18 +7,18 @@
 #include "talus/config.h"
 
 static const char help[] =
-    "Check configs and print what they say in full, in SI units.\n\n"
-    "usage: talus check [--set KEY=VALUE]... FILE...\n"
-    "       talus check --reference\n"
-    "example: talus check --set layers=20 configs/granular-collapse.yaml\n\n"
-    "options:\n"
-    "  -s, --set KEY=VALUE  override a key of every FILE, such as time.cfl=0.5; repeatable\n"
-    "                       (default: none)\n"
-    "  -q, --quiet          print nothing of what is right (default: off)\n"
-    "  -r, --reference      print every key with its default, unit, range and meaning, and\n"
-    "                       read no FILE (default: off)\n"
-    "  -h, --help           print this\n\n"
-    "exit: 0 all are right, 65 one is wrong (the message tells file, line and column)\n";
+	"Check configs and print what they say in full, in SI units.\n\n"
+	"usage: talus check [--set KEY=VALUE]... FILE...\n"
+	"       talus check --reference\n"
+	"example: talus check --set layers=20 configs/granular-collapse.yaml\n\n"
+	"options:\n"
+	"  -s, --set KEY=VALUE  override a key of every FILE, such as time.cfl=0.5; repeatable\n"
+	"                       (default: none)\n"
+	"  -q, --quiet          print nothing of what is right (default: off)\n"
+	"  -r, --reference      print every key with its default, unit, range and meaning, and\n"
+	"                       read no FILE (default: off)\n"
+	"  -h, --help           print this\n\n"
+	"exit: 0 all are right, 65 one is wrong (the message tells file, line and column)\n";
 
 struct check_options {
 	struct command_settings settings;
@@ -28,11 +28,11 @@ struct check_options {
 static int read_options(int argc, char **argv, struct check_options *options)
 {
 	static const struct option list[] = {
-	    {"set", required_argument, NULL, 's'},
-	    {"quiet", no_argument, NULL, 'q'},
-	    {"reference", no_argument, NULL, 'r'},
-	    {"help", no_argument, NULL, 'h'},
-	    {0},
+		{"set", required_argument, NULL, 's'},
+		{"quiet", no_argument, NULL, 'q'},
+		{"reference", no_argument, NULL, 'r'},
+		{"help", no_argument, NULL, 'h'},
+		{0},
 	};
 	struct error err = {0};
 	int option;
@@ -96,4 +96,4 @@ static int check_main(int argc, char **argv)
 }
 
 const struct command command_check = {
-    "check", "check configs and print them in full, in SI units", check_main};
+	"check", "check configs and print them in full, in SI units", check_main};

@@ -66,7 +66,7 @@ int command_print(struct text *text)
 	if (text->failed) {
 		(void)error_memory(&err, text->capacity);
 	} else if (fwrite(text_string(text), 1, text->length, stdout) != text->length ||
-	           fflush(stdout) != 0) {
+			   fflush(stdout) != 0) {
 		(void)error_set(&err, EX_IOERR, "standard output cannot be written: %s", strerror(errno));
 		clearerr(stdout);
 	}

@@ -16,7 +16,7 @@ int command_fail(const struct error *err);
 
 /* Print "talus COMMAND: message" and the way out to stderr; return EX_USAGE. */
 int command_usage(const char *command, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+	__attribute__((format(printf, 2, 3)));
 
 /* Long options in the manner of getopt_long; start the short ones with ":" and leave the messages to
  * command_option_error, which takes getopt_long's ':' or '?' and returns EX_USAGE. */

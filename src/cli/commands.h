@@ -12,6 +12,8 @@ extern const struct command command_verify;
 extern const struct command command_campaign;
 extern const struct command command_tables;
 
-#define COMMANDS &command_check, &command_campaign, &command_tables,
+#define COMMANDS                                                                                   \
+	&command_check, &command_run, &command_info, &command_diff, &command_verify,                   \
+		&command_campaign, &command_tables,
 
 #endif

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/build.h"
 #include "cli/command.h"
 #include "cli/commands.h"
 
@@ -10,13 +11,13 @@ static const struct command *const commands[] = {COMMANDS};
 static void print_help(FILE *stream)
 {
 	(void)fprintf(stream, "Run campaigns of granular-flow simulations.\n\n"
-	                      "usage: talus COMMAND [ARGUMENT]...\n"
-	                      "example: talus run configs/granular-collapse.yaml\n\n"
-	                      "commands:\n");
+						  "usage: talus COMMAND [ARGUMENT]...\n"
+						  "example: talus run configs/granular-collapse.yaml\n\n"
+						  "commands:\n");
 	for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
 		(void)fprintf(stream, "  %-10s %s\n", commands[i]->name, commands[i]->summary);
 	(void)fprintf(
-	    stream, "\n`talus COMMAND --help` tells more; `talus --version` tells the build.\n");
+		stream, "\n`talus COMMAND --help` tells more; `talus --version` tells the build.\n");
 }
 
 int main(int argc, char **argv)
@@ -27,6 +28,10 @@ int main(int argc, char **argv)
 	}
 	if (!strcmp(argv[1], "help") || !strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) {
 		print_help(stdout);
+		return 0;
+	}
+	if (!strcmp(argv[1], "--version")) {
+		printf("talus %s (%s, %s)\n", TALUS_VERSION, build_revision(), build_compiler());
 		return 0;
 	}
 	for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)

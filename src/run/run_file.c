@@ -15,7 +15,6 @@ struct run_file {
 	size_t size;          /* of the image */
 	hid_t id;             /* the image, opened by HDF5, which reads `bytes` in place */
 	struct run_summary summary;
-	bool newest;
 	char *path;
 };
 
@@ -150,58 +149,6 @@ int run_file_peek(const char *path, struct run_summary *summary, struct error *e
 	return 0;
 }
 
-/* Open one generation; what is wrong with it, or its warning, goes to `warning`. */
-static int open_generation(const char *folder, const char *name, struct run_file **out,
-	struct text *warning, struct error *err)
-{
-	struct text path = {0};
-	const char *remark = NULL;
-	char message[sizeof err->text + sizeof err->file];
-	int result;
-
-	TRY(file_path(&path, folder, name, err));
-	result = run_file_open(text_string(&path), out, &remark, err);
-	if (result == 0 && remark)
-		text_addf(warning, "%s: %s", text_string(&path), remark);
-	if (result != 0)
-		text_add(warning, error_format(err, message, sizeof message));
-	text_clean(&path);
-	return result;
-}
-
-int run_file_open_newest(
-	const char *folder, struct run_file **out, struct text *warning, struct error *err)
-{
-	struct error newest = {0}, previous = {0};
-
-	if (open_generation(folder, RUN_FILE_NEWEST, out, warning, &newest) == 0) {
-		(*out)->newest = true;
-		return 0;
-	}
-	if (newest.code == EX_SOFTWARE || newest.code == EX_IOERR) {
-		*err = newest;
-		return -1;
-	}
-	text_add(warning, "; ");
-	if (open_generation(folder, RUN_FILE_PREVIOUS, out, warning, &previous) == 0) {
-		text_add(warning, "the previous generation is used");
-		return 0;
-	}
-	text_clean(warning);
-	if (previous.code == EX_SOFTWARE || previous.code == EX_IOERR) {
-		*err = previous;
-	} else if (newest.code == EX_NOINPUT && previous.code == EX_NOINPUT) {
-		error_at(err, EX_NOINPUT, folder, 0, 0, "holds no run file");
-	} else {
-		char first[sizeof newest.text / 2], second[sizeof newest.text / 2];
-
-		error_at(err, EX_DATAERR, folder, 0, 0, "no generation of its run file is good: %s; %s",
-			error_format(&newest, first, sizeof first),
-			error_format(&previous, second, sizeof second));
-	}
-	return -1;
-}
-
 const char *run_file_path(const struct run_file *file)
 {
 	return file->path;
@@ -210,11 +157,6 @@ const char *run_file_path(const struct run_file *file)
 const struct run_summary *run_file_summary(const struct run_file *file)
 {
 	return &file->summary;
-}
-
-bool run_file_is_newest(const struct run_file *file)
-{
-	return file->newest;
 }
 
 const unsigned char *run_file_image(const struct run_file *file, size_t *size)
@@ -347,6 +289,31 @@ int run_file_fill(
 		result = error_at(err, EX_DATAERR, file->path, 0, 0, "dataset '%s' cannot be read", path);
 	(void)H5Dclose(id);
 	return result;
+}
+
+static herr_t read_scale(hid_t dataset, unsigned axis, hid_t scale, void *length)
+{
+	hid_t space = H5Dget_space(scale);
+
+	(void)dataset;
+	(void)axis;
+	*(size_t *)length = space < 0 ? 0 : (size_t)H5Sget_simple_extent_npoints(space);
+	return space < 0 ? -1 : H5Sclose(space);
+}
+
+size_t run_file_scale_length(struct run_file *file, const char *path, int axis)
+{
+	hid_t id = H5Dopen2(file->id, path, H5P_DEFAULT);
+	size_t length = 0;
+
+	if (id < 0)
+		return 0;
+	if (H5DSis_scale(id) > 0)
+		(void)read_scale(id, 0, id, &length);
+	else
+		(void)H5DSiterate_scales(id, (unsigned)axis, NULL, read_scale, &length);
+	(void)H5Dclose(id);
+	return length;
 }
 
 bool run_file_has(struct run_file *file, const char *path)

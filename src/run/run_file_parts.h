@@ -10,7 +10,11 @@
 const char *run_file_path(const struct run_file *file);
 const struct run_summary *run_file_summary(const struct run_file *file);
 
-/* Whether run_file_open_newest found run.h5 itself good, rather than the previous generation. */
+/* Open a run file, or the newest good generation in a run folder. As run_file_open_newest. */
+int run_file_open_any(
+	const char *path, struct run_file **out, struct text *warning, struct error *err);
+
+/* Whether this is run.h5 itself rather than the previous generation. */
 bool run_file_is_newest(const struct run_file *file);
 
 /* The HDF5 image, owned by `file`. */
@@ -20,6 +24,9 @@ const unsigned char *run_file_image(const struct run_file *file, size_t *size);
 int run_file_names(struct run_file *file, struct text *out, struct error *err);
 
 bool run_file_has(struct run_file *file, const char *path);
+
+/* The length of the scale that axis `axis` of a dataset has; 0 without a scale. */
+size_t run_file_scale_length(struct run_file *file, const char *path, int axis);
 
 /* Read a dataset of exactly `count` values. EX_DATAERR. */
 int run_file_fill(

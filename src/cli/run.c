@@ -1,0 +1,136 @@
+/* talus run: bring a run to its end, from wherever it stands. */
+#include <getopt.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/stop.h"
+#include "cli/command.h"
+#include "cli/commands.h"
+#include "talus/config.h"
+#include "talus/run.h"
+
+static const char help[] =
+	"Run a config, or go on with a run that was stopped, until it is complete.\n\n"
+	"usage: talus run [-o DIR] [--set KEY=VALUE]... FILE\n"
+	"example: talus run configs/granular-collapse.yaml\n\n"
+	"options:\n"
+	"  -o, --output DIR     folder of the run (default: results/ and the name of FILE without "
+	".yaml)\n"
+	"  -s, --set KEY=VALUE  override a key of FILE, such as time.cfl=0.5; repeatable\n"
+	"                       (default: none)\n"
+	"  -r, --retry          start a run that has failed anew (default: off)\n"
+	"  -n, --no-progress    no progress line on a terminal (default: off)\n"
+	"  -q, --quiet          print nothing but errors and warnings (default: off)\n"
+	"  -h, --help           print this\n\n"
+	"The same command starts a run, resumes it and finds it complete. SIGINT, SIGTERM and SIGUSR1\n"
+	"finish the step and write a checkpoint; a second SIGINT leaves at once.\n\n"
+	"exit: 0 complete, 1 the simulation failed, 65 bad config or run file, 73 cannot create the\n"
+	"folder, 74 input or output error, 75 stopped or locked: the same command goes on\n";
+
+struct run_command {
+	struct command_settings settings;
+	struct run_options run;
+	const char *folder, *file;
+	bool help;
+};
+
+/* The progress line is written over in place, and taken away before any other line. */
+static void say(enum run_voice voice, const char *line)
+{
+	if (voice == RUN_VOICE_RESULT)
+		(void)printf("%s\n", line);
+	else if (voice == RUN_VOICE_WARNING)
+		(void)fprintf(stderr, "talus: warning: %s\n", line);
+	else
+		(void)fprintf(stderr, "\r%s\033[K", line);
+}
+
+static int read_options(int argc, char **argv, struct run_command *command)
+{
+	static const struct option list[] = {
+		{"output", required_argument, NULL, 'o'},
+		{"set", required_argument, NULL, 's'},
+		{"retry", no_argument, NULL, 'r'},
+		{"no-progress", no_argument, NULL, 'n'},
+		{"quiet", no_argument, NULL, 'q'},
+		{"help", no_argument, NULL, 'h'},
+		{0},
+	};
+	struct error err = {0};
+	int option;
+
+	command->run.progress = isatty(STDERR_FILENO) == 1;
+	while ((option = getopt_long(argc, argv, ":o:s:rnqh", list, NULL)) != -1) {
+		if (option == 's' && command_settings_add(&command->settings, optarg, &err) != 0)
+			return command_fail(&err);
+		if (option == ':' || option == '?')
+			return command_option_error("run", option, argv);
+		if (option == 'o')
+			command->folder = optarg;
+		command->run.retry |= option == 'r';
+		command->run.progress &= option != 'n' && option != 'q';
+		command->run.quiet |= option == 'q';
+		command->help |= option == 'h';
+	}
+	if (command->help)
+		return 0;
+	if (optind + 1 != argc)
+		return command_usage("run", optind == argc ? "no FILE given" : "only one FILE can be run");
+	if (command->folder && !*command->folder)
+		return command_usage("run", "the folder of -o is empty");
+	command->file = argv[optind];
+	return 0;
+}
+
+/* results/STEM for DIR/STEM.yaml */
+static void add_default_folder(struct text *folder, const char *file)
+{
+	const char *slash = strrchr(file, '/'), *stem = slash ? slash + 1 : file;
+	const char *dot = strrchr(stem, '.');
+
+	text_add(folder, "results/");
+	text_add_bytes(folder, stem, dot && dot > stem ? (size_t)(dot - stem) : strlen(stem));
+}
+
+static int execute(struct run_command *command)
+{
+	struct text folder = {0};
+	struct config config;
+	struct error err = {0};
+	int code = 0;
+
+	if (command->folder)
+		text_add(&folder, command->folder);
+	else
+		add_default_folder(&folder, command->file);
+	command->run.say = say;
+	stop_install();
+	if (folder.failed)
+		(void)error_memory(&err, folder.capacity);
+	else if (config_read(&config, command->file, command->settings.list, command->settings.count,
+				 &err) == 0)
+		(void)run_execute(&config, text_string(&folder), &command->run, &err);
+	if (err.code)
+		code = command_fail(&err);
+	text_clean(&folder);
+	return code;
+}
+
+static int run_main(int argc, char **argv)
+{
+	struct run_command command = {0};
+	struct text out = {0};
+	int code = read_options(argc, argv, &command);
+
+	if (code == 0 && command.help) {
+		text_add(&out, help);
+		code = command_print(&out);
+	} else if (code == 0) {
+		code = execute(&command);
+	}
+	command_settings_clean(&command.settings);
+	return code;
+}
+
+const struct command command_run = {"run", "run a config, or go on where it was stopped", run_main};

@@ -1,0 +1,130 @@
+#include "run/compare.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "run/run_file_parts.h"
+
+static int compare_attributes(
+	struct run_file *a, struct run_file *b, struct text *out, struct error *err)
+{
+	struct text first = {0}, second = {0};
+	double version[2];
+	int result = -1;
+
+	if (run_file_text(a, "config_hash", &first, err) != 0 ||
+		run_file_text(b, "config_hash", &second, err) != 0 ||
+		run_file_real(a, "numerics_version", &version[0], err) != 0 ||
+		run_file_real(b, "numerics_version", &version[1], err) != 0)
+		goto done;
+	if (strcmp(text_string(&first), text_string(&second)) != 0)
+		text_addf(out, "config_hash: %s -> %s\n", text_string(&first), text_string(&second));
+	if (version[0] != version[1])
+		text_addf(out, "numerics_version: %g -> %g\n", version[0], version[1]);
+	result = 0;
+done:
+	text_clean(&first);
+	text_clean(&second);
+	return result;
+}
+
+static void add_shape(struct text *out, const struct dataset *data)
+{
+	text_add(out, data->rank ? "" : "a scalar");
+	for (int i = 0; i < data->rank; i++)
+		text_addf(out, i ? " x %zu" : "%zu", data->extent[i]);
+}
+
+/* The place of value `index`, counted from 0: "[2, 14]". */
+static void add_place(struct text *out, const struct dataset *data, size_t index)
+{
+	size_t place[3];
+
+	for (int i = data->rank - 1; i >= 0; i--) {
+		place[i] = index % data->extent[i];
+		index /= data->extent[i];
+	}
+	for (int i = 0; i < data->rank; i++)
+		text_addf(out, "%s%zu", i ? ", " : "[", place[i]);
+	text_add(out, data->rank ? "]" : "");
+}
+
+static void compare_values(
+	const char *path, const struct dataset *a, const struct dataset *b, struct text *out)
+{
+	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
+	size_t count = 1, different = 0, where = 0;
+	bool same_shape = a->rank == b->rank;
+
+	for (int i = 0; same_shape && i < a->rank; i++) {
+		same_shape = a->extent[i] == b->extent[i];
+		count *= a->extent[i];
+	}
+	if (!same_shape) {
+		text_addf(out, "%s: shape ", path);
+		add_shape(out, a);
+		text_add(out, " -> ");
+		add_shape(out, b);
+		text_add(out, "\n");
+		return;
+	}
+	for (size_t i = count; i-- > 0;)
+		if (memcmp(&a->values[i], &b->values[i], sizeof *a->values) != 0) {
+			different++;
+			where = i;
+		}
+	if (!different)
+		return;
+	text_addf(out, "%s: %zu of %zu values differ, first ", path, different, count);
+	add_place(out, a, where);
+	text_addf(out, "%s%s -> %s\n", a->rank ? ": " : "", text_real(a->values[where], first),
+		text_real(b->values[where], second));
+}
+
+static int compare_dataset(
+	struct run_file *a, struct run_file *b, const char *path, struct text *out, struct error *err)
+{
+	struct dataset first = {0}, second = {0};
+	int result = -1;
+
+	if (run_file_dataset(a, path, &first, err) == 0 &&
+		run_file_dataset(b, path, &second, err) == 0) {
+		compare_values(path, &first, &second, out);
+		result = 0;
+	}
+	free(first.values);
+	free(second.values);
+	return result;
+}
+
+/* Clocks are never the same twice. */
+static bool is_clock(const char *path)
+{
+	const char *name = strrchr(path, '/') + 1;
+
+	return !strncmp(name, "cpu_", 4) || !strncmp(name, "wall_", 5);
+}
+
+int compare_run_files(struct run_file *a, struct run_file *b, struct text *out, struct error *err)
+{
+	struct text first = {0}, second = {0};
+	char *rest;
+	int result = -1;
+
+	if (compare_attributes(a, b, out, err) != 0 || run_file_names(a, &first, err) != 0 ||
+		run_file_names(b, &second, err) != 0)
+		goto done;
+	for (char *path = strtok_r(first.data, "\n", &rest); path; path = strtok_r(NULL, "\n", &rest))
+		if (!run_file_has(b, path))
+			text_addf(out, "%s: only in %s\n", path, run_file_path(a));
+		else if (!is_clock(path) && compare_dataset(a, b, path, out, err) != 0)
+			goto done;
+	for (char *path = strtok_r(second.data, "\n", &rest); path; path = strtok_r(NULL, "\n", &rest))
+		if (!run_file_has(a, path))
+			text_addf(out, "%s: only in %s\n", path, run_file_path(b));
+	result = out->failed ? error_memory(err, out->capacity) : 0;
+done:
+	text_clean(&first);
+	text_clean(&second);
+	return result;
+}

@@ -1,0 +1,101 @@
+#include "run/verify.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "run/run_file_parts.h"
+
+/* Relative; the sum of some 1e5 masses at rounding error stays far below. */
+#define MASS_TOLERANCE 1e-12
+
+static void check_growth(const char *path, const struct dataset *times, struct text *out)
+{
+	if (times->rank != 1 || times->extent[0] < 1) {
+		text_addf(out, "%s: is not a list of times\n", path);
+		return;
+	}
+	for (size_t i = 0; i < times->extent[0]; i++)
+		if (!(times->values[i] >= 0) || (i && !(times->values[i] > times->values[i - 1]))) {
+			text_addf(out, "%s: does not grow at [%zu]: %.17g\n", path, i, times->values[i]);
+			return;
+		}
+}
+
+/* Every axis has a scale, and its length. */
+static int check_lengths(struct run_file *file, struct text *out, struct error *err)
+{
+	struct text names = {0};
+	struct dataset data;
+	char *rest;
+	int result = run_file_names(file, &names, err);
+
+	for (char *path = result ? NULL : strtok_r(names.data, "\n", &rest); path;
+		 path = strtok_r(NULL, "\n", &rest)) {
+		if (run_file_dataset(file, path, &data, err) != 0) {
+			result = -1;
+			break;
+		}
+		free(data.values);
+		for (int i = 0; i < data.rank; i++) {
+			size_t length = run_file_scale_length(file, path, i);
+
+			if (length != data.extent[i])
+				text_addf(out, "%s: axis %d has %zu values, its scale %zu\n", path, i,
+					data.extent[i], length);
+		}
+	}
+	text_clean(&names);
+	return result;
+}
+
+static int check_mass(struct run_file *file, struct text *out, struct error *err)
+{
+	struct dataset mass = {0}, outflow = {0};
+	double first, worst = 0;
+	int result = -1;
+
+	if (!run_file_has(file, "/mass") || !run_file_has(file, "/mass_outflow"))
+		return 0;
+	if (run_file_dataset(file, "/mass", &mass, err) != 0 ||
+		run_file_dataset(file, "/mass_outflow", &outflow, err) != 0)
+		goto done;
+	result = 0;
+	if (mass.rank != 1 || outflow.rank != 1 || mass.extent[0] != outflow.extent[0])
+		goto done;
+	first = mass.extent[0] ? mass.values[0] + outflow.values[0] : 0;
+	for (size_t i = 0; i < mass.extent[0]; i++) {
+		double off = fabs(mass.values[i] + outflow.values[i] - first);
+
+		worst = off <= worst ? worst : off; /* takes a NaN over */
+	}
+	if (!(worst <= MASS_TOLERANCE * fabs(first)))
+		text_addf(out, "mass and mass_outflow add up to %.17g at first and %.3g from it later\n",
+			first, worst);
+done:
+	free(mass.values);
+	free(outflow.values);
+	return result;
+}
+
+int verify_run_file(struct run_file *file, struct text *out, struct error *err)
+{
+	struct dataset times = {0}, profile_times = {0};
+	int result = -1;
+
+	if (run_file_dataset(file, "/time", &times, err) != 0)
+		goto done;
+	check_growth("/time", &times, out);
+	if (run_file_has(file, "/profile_time")) {
+		if (run_file_dataset(file, "/profile_time", &profile_times, err) != 0)
+			goto done;
+		check_growth("/profile_time", &profile_times, out);
+	}
+	if (check_lengths(file, out, err) != 0 || check_mass(file, out, err) != 0)
+		goto done;
+	result = out->failed ? error_memory(err, out->capacity) : 0;
+done:
+	free(times.values);
+	free(profile_times.values);
+	return result;
+}
