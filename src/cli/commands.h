@@ -9,7 +9,11 @@ extern const struct command command_run;
 extern const struct command command_info;
 extern const struct command command_diff;
 extern const struct command command_verify;
+extern const struct command command_campaign;
+extern const struct command command_tables;
 
-#define COMMANDS &command_check, &command_run, &command_info, &command_diff, &command_verify,
+#define COMMANDS                                                                                   \
+	&command_check, &command_run, &command_info, &command_diff, &command_verify,                   \
+		&command_campaign, &command_tables,
 
 #endif

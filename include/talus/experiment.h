@@ -1,0 +1,98 @@
+/* An experiment: the runs that one YAML file asks for, and the tables it wants of them. */
+#ifndef TALUS_EXPERIMENT_H
+#define TALUS_EXPERIMENT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "talus/config.h"
+#include "talus/error.h"
+
+/* A text of the experiment file and its place there; line 0: from the command line. */
+struct term {
+	const char *text; /* owned by the experiment */
+	int line, column;
+};
+
+struct term_list {
+	struct term *items; /* [count] */
+	size_t count;
+};
+
+/* One key of a config and the value it gets, both as the author wrote them. */
+struct setting {
+	char *key;        /* dotted */
+	char *value;      /* as config_parse reads it after "key=" */
+	int line, column; /* of the value; the key is named by the message */
+};
+
+struct setting_list {
+	struct setting *items; /* [count] */
+	size_t count;
+};
+
+struct experiment_run {
+	char *id;                     /* readable, ends with digits of the hash: name of the folder */
+	char *folder;                 /* where its files are or will be */
+	struct config config;         /* effective */
+	char hash[CONFIG_HASH_SIZE];  /* config_hash of it */
+	struct setting_list settings; /* of its entry in `runs`, in order */
+	int repeat;                   /* counted from 1 */
+};
+
+struct node;
+
+/* A table as the file asks for it; src/tables gives it its meaning. */
+struct experiment_table {
+	struct term name;
+	const char *title;             /* "": that of the experiment */
+	struct term_list rows;         /* keys whose values make the rows */
+	struct term_list columns;      /* the same for columns; may be empty */
+	struct term_list metrics;      /* what a cell shows */
+	struct term_list at;           /* profile times for the metrics that need one; empty: the end */
+	struct setting_list baseline;  /* makes of a run's config that of the run it is timed against */
+	struct setting_list reference; /* makes of a run's config that of the exact one */
+	struct setting_list only;      /* runs without these values are left out */
+	const struct node *published;  /* rows of columns of metrics, NULL: none */
+};
+
+struct experiment {
+	char *path;        /* of its file, as given */
+	char *folder;      /* that holds the run folders */
+	const char *title; /* "" if none */
+	const char *source;
+	int repeat;
+	bool timing;                 /* one run at a time */
+	struct experiment_run *runs; /* [run_count], every run once, then every run again, ... */
+	size_t run_count;
+	struct experiment_table *tables; /* [table_count] */
+	size_t table_count;
+
+	char *base; /* path of the base config, and its text */
+	char *base_text;
+	size_t base_length;
+	struct setting_list set;       /* for all runs, before their own */
+	struct setting_list overrides; /* of the command line, after them */
+	struct node *root;             /* the file; terms point into it */
+};
+
+enum { EXPERIMENT_RUNS_MAX = 10000 };
+
+/* Read an experiment file and every config that it asks for. Run folders lie in `folder`, NULL: in
+ * results/<stem of path>; a folder there that ends with the hash and repeat of a run belongs to it,
+ * whatever its name began with. `overrides` are "key=value" for all runs. Errors: EX_DATAERR with the
+ * place in the experiment or the base config, EX_SOFTWARE. Clean in every case. */
+int experiment_read(struct experiment *experiment, const char *path, const char *folder,
+	const char *const *overrides, int count, struct error *err);
+
+void experiment_clean(struct experiment *experiment);
+
+/* The config of `run` with `more` on top. A bad one among `more` is cited with its place. */
+int experiment_vary(const struct experiment *experiment, const struct experiment_run *run,
+	const struct setting_list *more, struct config *config, struct error *err);
+
+/* The index of the run with this config and repeat; run_count if the experiment has none. */
+int experiment_find(const struct experiment *experiment, const struct config *config, int repeat,
+	size_t *index, struct error *err);
+
+#endif

@@ -1,0 +1,15 @@
+/* From the `runs` of an experiment to its list of runs. */
+#ifndef TALUS_EXPAND_H
+#define TALUS_EXPAND_H
+
+#include "config/yaml.h"
+#include "talus/experiment.h"
+
+/* Fill experiment->runs from the node of `runs` (NULL or blank: one run of the base): configs, hashes,
+ * names and folders. */
+int experiment_expand(struct experiment *experiment, const struct node *runs, struct error *err);
+
+/* Give every run its id and folder. */
+int experiment_name_runs(struct experiment *experiment, struct error *err);
+
+#endif

@@ -1,0 +1,324 @@
+#include "talus/experiment.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "campaign/expand.h"
+#include "campaign/reader.h"
+
+/* What the entries of an experiment file fill. */
+struct form {
+	struct experiment *experiment;
+	const struct node *base, *runs;
+};
+
+static int read_title(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_text(reader, node, &((struct form *)target)->experiment->title);
+}
+
+static int read_source(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_text(reader, node, &((struct form *)target)->experiment->source);
+}
+
+static int read_base(const struct reader *reader, const struct node *node, void *target)
+{
+	const char *path;
+
+	((struct form *)target)->base = node;
+	return reader_text(reader, node, &path);
+}
+
+static int read_set(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_settings(reader, node, &((struct form *)target)->experiment->set);
+}
+
+static int read_runs(const struct reader *reader, const struct node *node, void *target)
+{
+	bool blank = node->kind == NODE_SCALAR && !node->text[0] && !node->quoted;
+
+	if (!blank && node->kind != NODE_SEQUENCE)
+		return reader_fail(reader, node, "a list of mappings is wanted here");
+	((struct form *)target)->runs = node;
+	return 0;
+}
+
+static int read_repeat(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_integer(reader, node, 1, 1000, &((struct form *)target)->experiment->repeat);
+}
+
+static int read_timing(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_bool(reader, node, &((struct form *)target)->experiment->timing);
+}
+
+static int read_table_name(const struct reader *reader, const struct node *node, void *target)
+{
+	struct experiment_table *table = target;
+
+	table->name = (struct term){NULL, node->line, node->column};
+	return reader_text(reader, node, &table->name.text);
+}
+
+static int read_table_title(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_text(reader, node, &((struct experiment_table *)target)->title);
+}
+
+static int read_rows(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_terms(reader, node, &((struct experiment_table *)target)->rows);
+}
+
+static int read_columns(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_terms(reader, node, &((struct experiment_table *)target)->columns);
+}
+
+static int read_metric(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_terms(reader, node, &((struct experiment_table *)target)->metrics);
+}
+
+static int read_at(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_terms(reader, node, &((struct experiment_table *)target)->at);
+}
+
+static int read_baseline(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_settings(reader, node, &((struct experiment_table *)target)->baseline);
+}
+
+static int read_reference(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_settings(reader, node, &((struct experiment_table *)target)->reference);
+}
+
+static int read_only(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_settings(reader, node, &((struct experiment_table *)target)->only);
+}
+
+static int read_table(
+	const struct reader *reader, const struct node *node, struct experiment_table *table)
+{
+	static const struct reader_key keys[] = {
+		{"name", read_table_name},
+		{"title", read_table_title},
+		{"rows", read_rows},
+		{"columns", read_columns},
+		{"metric", read_metric},
+		{"baseline", read_baseline},
+		{"reference", read_reference},
+		{"at", read_at},
+		{"only", read_only},
+	};
+
+	table->title = "";
+	TRY(reader_keys(reader, node, keys, sizeof keys / sizeof *keys, table));
+	if (!table->name.text)
+		return reader_fail(reader, node, "this table lacks its 'name'");
+	if (!table->rows.count)
+		return reader_fail(reader, node, "table '%s' lacks its 'rows'", table->name.text);
+	if (!table->metrics.count)
+		return reader_fail(reader, node, "table '%s' lacks its 'metric'", table->name.text);
+	return 0;
+}
+
+static int read_tables(const struct reader *reader, const struct node *node, void *target)
+{
+	struct experiment *experiment = ((struct form *)target)->experiment;
+
+	if (node->kind != NODE_SEQUENCE)
+		return reader_fail(reader, node, "a list of tables is wanted here");
+	experiment->tables = calloc(node->count ? node->count : 1, sizeof *experiment->tables);
+	if (!experiment->tables)
+		return error_memory(reader->err, node->count * sizeof *experiment->tables);
+	for (size_t i = 0; i < node->count; i++) {
+		struct experiment_table *table = &experiment->tables[i];
+
+		experiment->table_count = i + 1;
+		TRY(read_table(reader, &node->items[i], table));
+		for (size_t k = 0; k < i; k++)
+			if (!strcmp(experiment->tables[k].name.text, table->name.text))
+				return reader_fail(
+					reader, &node->items[i], "table '%s' stands here twice", table->name.text);
+	}
+	return 0;
+}
+
+static int read_published(const struct reader *reader, const struct node *node, void *target)
+{
+	(void)target; /* handed to the tables when all of them are known */
+	if (node->kind != NODE_MAPPING)
+		return reader_fail(reader, node, "a mapping of table names is wanted here");
+	return 0;
+}
+
+static int share_published(const struct reader *reader, struct experiment *experiment)
+{
+	const struct node *published = node_find(experiment->root, "published");
+
+	for (size_t i = 0; published && i < published->count; i++) {
+		const struct node *item = &published->items[i];
+		size_t k = 0;
+
+		while (
+			k < experiment->table_count && strcmp(experiment->tables[k].name.text, item->key) != 0)
+			k++;
+		if (k == experiment->table_count)
+			return error_at(reader->err, EX_DATAERR, reader->path, item->key_line, item->key_column,
+				"published: no table of this experiment is named '%s'", item->key);
+		experiment->tables[k].published = item;
+	}
+	return 0;
+}
+
+static int read_form(const struct reader *reader, struct form *form)
+{
+	static const struct reader_key keys[] = {
+		{"title", read_title},
+		{"source", read_source},
+		{"base", read_base},
+		{"set", read_set},
+		{"runs", read_runs},
+		{"repeat", read_repeat},
+		{"timing", read_timing},
+		{"tables", read_tables},
+		{"published", read_published},
+	};
+	struct experiment *experiment = form->experiment;
+
+	TRY(reader_keys(reader, experiment->root, keys, sizeof keys / sizeof *keys, form));
+	if (!form->base)
+		return reader_fail(reader, experiment->root, "the experiment lacks its 'base' config");
+	return share_published(reader, experiment);
+}
+
+/* The base config's text; its path is relative to the experiment's. */
+static int load_base(
+	const struct reader *reader, struct experiment *experiment, const struct node *base)
+{
+	enum { LIMIT = 1 << 20 }; /* what yaml_parse takes */
+	const char *slash = strrchr(experiment->path, '/');
+	int directory = base->text[0] != '/' && slash ? (int)(slash + 1 - experiment->path) : 0;
+	FILE *file;
+	int result = -1;
+
+	if (asprintf(&experiment->base, "%.*s%s", directory, experiment->path, base->text) < 0) {
+		experiment->base = NULL;
+		return error_memory(reader->err, strlen(experiment->path) + strlen(base->text));
+	}
+	experiment->base_text = malloc(LIMIT + 1);
+	if (!experiment->base_text)
+		return error_memory(reader->err, LIMIT + 1);
+	file = fopen(experiment->base, "re");
+	if (!file)
+		return reader_fail(reader, base, "cannot read %s: %s", experiment->base, strerror(errno));
+	errno = 0;
+	experiment->base_length = fread(experiment->base_text, 1, LIMIT + 1, file);
+	if (ferror(file))
+		reader_fail(reader, base, "cannot read %s: %s", experiment->base, strerror(errno));
+	else if (experiment->base_length > LIMIT)
+		reader_fail(reader, base, "%s is larger than 1 MiB", experiment->base);
+	else
+		result = 0;
+	(void)fclose(file);
+	return result;
+}
+
+static int keep_overrides(
+	struct experiment *experiment, const char *const *overrides, int count, struct error *err)
+{
+	for (int i = 0; i < count; i++) {
+		const char *equals = strchr(overrides[i], '=');
+		struct node value = {.kind = NODE_SCALAR};
+		char *key;
+		int result;
+
+		if (!equals || equals == overrides[i])
+			return error_set(err, EX_DATAERR, "--set %s: key=value is wanted here", overrides[i]);
+		key = strndup(overrides[i], (size_t)(equals - overrides[i]));
+		value.text = strdup(equals + 1);
+		result = key && value.text ? setting_list_add(&experiment->overrides, key, &value, err)
+								   : error_memory(err, strlen(overrides[i]));
+		free(key);
+		free(value.text);
+		TRY(result);
+	}
+	return 0;
+}
+
+/* results/<stem of the file> unless the caller names a folder. */
+static int name_folder(struct experiment *experiment, const char *folder, struct error *err)
+{
+	const char *slash = strrchr(experiment->path, '/');
+	const char *name = slash ? slash + 1 : experiment->path;
+	const char *dot = strrchr(name, '.');
+	int stem = dot && dot > name ? (int)(dot - name) : (int)strlen(name);
+
+	if (folder)
+		experiment->folder = strdup(folder);
+	else if (asprintf(&experiment->folder, "results/%.*s", stem, name) < 0)
+		experiment->folder = NULL;
+	return experiment->folder ? 0 : error_memory(err, strlen(name));
+}
+
+int experiment_read(struct experiment *experiment, const char *path, const char *folder,
+	const char *const *overrides, int count, struct error *err)
+{
+	struct reader reader = {path, err};
+	struct form form = {.experiment = experiment};
+
+	*experiment = (struct experiment){.title = "", .source = "", .repeat = 1};
+	experiment->path = strdup(path);
+	experiment->root = calloc(1, sizeof *experiment->root);
+	if (!experiment->path || !experiment->root)
+		return error_memory(err, strlen(path) + sizeof *experiment->root);
+	TRY(name_folder(experiment, folder, err));
+	TRY(yaml_load(experiment->root, path, err));
+	TRY(read_form(&reader, &form));
+	TRY(load_base(&reader, experiment, form.base));
+	TRY(keep_overrides(experiment, overrides, count, err));
+	return experiment_expand(experiment, form.runs, err);
+}
+
+static void table_clean(struct experiment_table *table)
+{
+	free(table->rows.items);
+	free(table->columns.items);
+	free(table->metrics.items);
+	free(table->at.items);
+	setting_list_clean(&table->baseline);
+	setting_list_clean(&table->reference);
+	setting_list_clean(&table->only);
+}
+
+void experiment_clean(struct experiment *experiment)
+{
+	for (size_t i = 0; i < experiment->run_count; i++) {
+		free(experiment->runs[i].id);
+		free(experiment->runs[i].folder);
+		setting_list_clean(&experiment->runs[i].settings);
+	}
+	for (size_t i = 0; i < experiment->table_count; i++)
+		table_clean(&experiment->tables[i]);
+	free(experiment->runs);
+	free(experiment->tables);
+	free(experiment->path);
+	free(experiment->folder);
+	free(experiment->base);
+	free(experiment->base_text);
+	setting_list_clean(&experiment->set);
+	setting_list_clean(&experiment->overrides);
+	if (experiment->root)
+		node_clean(experiment->root);
+	free(experiment->root);
+	*experiment = (struct experiment){0};
+}

@@ -1,0 +1,197 @@
+#include "campaign/local.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/clock.h"
+#include "base/file.h"
+#include "campaign/task.h"
+
+struct pool {
+	struct campaign *campaign;
+	sigset_t signals, before; /* blocked while the pool works, and what was blocked before it */
+	struct text timing;       /* lock file of timing experiments; empty: none is needed */
+	double looked;            /* when the reports were last read, s */
+};
+
+static void tell_end(const struct pool *pool, const struct task *task)
+{
+	const struct campaign_watch *watch = &pool->campaign->watch;
+
+	if (watch->ended)
+		watch->ended(watch->context, pool->campaign, task);
+}
+
+static size_t task_count(const struct pool *pool)
+{
+	return pool->campaign->experiment->run_count;
+}
+
+static bool is_over(const struct task *task)
+{
+	return task->state == TASK_COMPLETE || task->state == TASK_FAILED ||
+		   task->state == TASK_INTERRUPTED;
+}
+
+static void reap(struct pool *pool)
+{
+	for (size_t i = 0; i < task_count(pool); i++) {
+		struct task *task = &pool->campaign->tasks[i];
+
+		if (task->state == TASK_RUNNING && task_reap(pool->campaign, task) && is_over(task))
+			tell_end(pool, task);
+	}
+}
+
+/* The lock under which timed runs take turns, over all campaigns in this folder. */
+static bool take_turn(struct pool *pool, struct lock *timing, struct error *err)
+{
+	timing->fd = -1;
+	if (!pool->timing.length)
+		return true;
+	if (!lock_take(timing, pool->timing.data, err))
+		return true;
+	if (err->code == EX_INTERRUPTED)
+		*err = (struct error){0}; /* another's turn */
+	return false;
+}
+
+/* A run whose folder cannot be made fails alone; without memory or processes nothing goes on. */
+static void fail_start(struct pool *pool, struct task *task, struct error *err)
+{
+	if (err->code != EX_CANTCREAT && err->code != EX_IOERR)
+		return;
+	task->state = TASK_FAILED;
+	task->code = err->code;
+	(void)error_format(err, task->report.reason, sizeof task->report.reason);
+	*err = (struct error){0};
+	tell_end(pool, task);
+}
+
+/* Start one waiting task. False: there is none, or now is not the time. */
+static bool start_next(struct pool *pool, struct error *err)
+{
+	struct lock timing;
+	bool started = false;
+
+	for (size_t i = 0; !started && i < task_count(pool); i++) {
+		struct task *task = &pool->campaign->tasks[i];
+
+		if (task->state != TASK_WAITING)
+			continue;
+		if (!take_turn(pool, &timing, err))
+			return false;
+		/* another campaign may have been here since we looked */
+		task_look(pool->campaign, task);
+		if (is_over(task))
+			tell_end(pool, task);
+		else if (task->state == TASK_WAITING &&
+				 task_start(pool->campaign, task, &pool->before, &timing, err))
+			fail_start(pool, task, err);
+		started = task->state == TASK_RUNNING;
+		lock_release(&timing); /* the child has its own hold on it */
+		if (err->code)
+			return false;
+	}
+	return started;
+}
+
+static void start(struct pool *pool, struct error *err)
+{
+	const struct campaign *campaign = pool->campaign;
+
+	while (!campaign->stopping && !err->code &&
+		   campaign_count(campaign, TASK_RUNNING) < (size_t)campaign->options.jobs &&
+		   start_next(pool, err))
+		;
+}
+
+/* About twice a second: how far the children are, and what became of the runs of others. */
+static void look(struct pool *pool)
+{
+	const struct campaign_watch *watch = &pool->campaign->watch;
+
+	if (clock_wall() - pool->looked < 0.5)
+		return;
+	pool->looked = clock_wall();
+	for (size_t i = 0; i < task_count(pool); i++) {
+		struct task *task = &pool->campaign->tasks[i];
+
+		if (task->state != TASK_RUNNING && task->state != TASK_ELSEWHERE)
+			continue;
+		task_look(pool->campaign, task);
+		if (is_over(task))
+			tell_end(pool, task);
+	}
+	if (watch->tick)
+		watch->tick(watch->context, pool->campaign);
+}
+
+static void forward(const struct pool *pool, int number)
+{
+	for (size_t i = 0; i < task_count(pool); i++)
+		if (pool->campaign->tasks[i].state == TASK_RUNNING)
+			(void)kill(pool->campaign->tasks[i].pid, number);
+}
+
+/* Wait for a child, a signal, or the next look. False: leave at once. */
+static bool wait_a_while(struct pool *pool)
+{
+	const struct timespec pause = {.tv_nsec = 250000000};
+	int number = sigtimedwait(&pool->signals, NULL, &pause);
+
+	if (number < 0 || number == SIGCHLD)
+		return true;
+	if (number == SIGINT && pool->campaign->stopping)
+		return false;
+	pool->campaign->stopping = true;
+	forward(pool, SIGTERM);
+	return true;
+}
+
+static bool is_work_left(const struct pool *pool, const struct error *err)
+{
+	const struct campaign *campaign = pool->campaign;
+
+	if (campaign_count(campaign, TASK_RUNNING))
+		return true;
+	return !campaign->stopping && !err->code &&
+		   (campaign_count(campaign, TASK_WAITING) || campaign_count(campaign, TASK_ELSEWHERE));
+}
+
+static int pool_init(struct pool *pool, struct campaign *campaign, struct error *err)
+{
+	static const int numbers[] = {SIGCHLD, SIGINT, SIGTERM, SIGHUP, SIGUSR1};
+
+	*pool = (struct pool){.campaign = campaign, .looked = clock_wall()};
+	(void)sigemptyset(&pool->signals);
+	for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+		(void)sigaddset(&pool->signals, numbers[i]);
+	if (campaign->experiment->timing)
+		TRY(file_path(&pool->timing, campaign->experiment->folder, "timing.lock", err));
+	if (sigprocmask(SIG_BLOCK, &pool->signals, &pool->before) != 0)
+		return error_set(err, EX_SOFTWARE, "cannot block signals: %s", strerror(errno));
+	return 0;
+}
+
+int local_execute(struct campaign *campaign, struct error *err)
+{
+	struct pool pool;
+
+	if (pool_init(&pool, campaign, err)) {
+		text_clean(&pool.timing);
+		return -1;
+	}
+	for (bool stay = true; stay && is_work_left(&pool, err);) {
+		start(&pool, err);
+		if (campaign_count(campaign, TASK_RUNNING) || is_work_left(&pool, err))
+			stay = wait_a_while(&pool);
+		reap(&pool);
+		look(&pool);
+	}
+	(void)sigprocmask(SIG_SETMASK, &pool.before, NULL);
+	text_clean(&pool.timing);
+	return err->code ? -1 : 0;
+}

@@ -1,0 +1,259 @@
+#include "campaign/reader.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "talus/text.h"
+
+enum { EXCERPT = 80 }; /* bytes of a value shown in a message */
+
+int reader_fail(const struct reader *reader, const struct node *node, const char *format, ...)
+{
+	char message[1024];
+	va_list args;
+
+	va_start(args, format);
+	(void)vsnprintf(message, sizeof message, format, args);
+	va_end(args);
+	return error_at(reader->err, EX_DATAERR, reader->path, node->line, node->column, "%s%s%s",
+		node->key ? node->key : "", node->key ? ": " : "", message);
+}
+
+static int unknown_key(const struct reader *reader, const struct node *item,
+	const struct reader_key *keys, size_t count)
+{
+	int best = (int)strlen(item->key) / 3 + 2;
+	const char *nearest = NULL;
+	struct text known = {0};
+	char shown[EXCERPT];
+
+	for (size_t i = 0; i < count; i++) {
+		int distance = text_distance(item->key, keys[i].name);
+
+		text_addf(&known, "%s%s", i ? ", " : "", keys[i].name);
+		if (distance < best) {
+			best = distance;
+			nearest = keys[i].name;
+		}
+	}
+	(void)text_excerpt(item->key, shown, sizeof shown);
+	if (nearest)
+		error_at(reader->err, EX_DATAERR, reader->path, item->key_line, item->key_column,
+			"unknown key '%s'; did you mean '%s'?", shown, nearest);
+	else
+		error_at(reader->err, EX_DATAERR, reader->path, item->key_line, item->key_column,
+			"unknown key '%s'; known are: %s", shown, text_string(&known));
+	text_clean(&known);
+	return -1;
+}
+
+int reader_keys(const struct reader *reader, const struct node *node, const struct reader_key *keys,
+	size_t count, void *target)
+{
+	if (node->kind != NODE_MAPPING)
+		return reader_fail(reader, node, "a mapping of keys is wanted here");
+	for (size_t i = 0; i < node->count; i++) {
+		const struct node *item = &node->items[i];
+		size_t k = 0;
+
+		while (k < count && strcmp(item->key, keys[k].name) != 0)
+			k++;
+		if (k == count)
+			return unknown_key(reader, item, keys, count);
+		TRY(keys[k].read(reader, item, target));
+	}
+	return 0;
+}
+
+int reader_text(const struct reader *reader, const struct node *node, const char **out)
+{
+	if (node->kind != NODE_SCALAR || !node->text[0])
+		return reader_fail(reader, node, "one text is wanted here");
+	*out = node->text;
+	return 0;
+}
+
+static const char *excerpt(const struct node *node, char shown[EXCERPT])
+{
+	return node->kind == NODE_SCALAR ? text_excerpt(node->text, shown, EXCERPT)
+									 : node_kind_name(node);
+}
+
+int reader_integer(const struct reader *reader, const struct node *node, int min, int max, int *out)
+{
+	char shown[EXCERPT];
+
+	if (node->kind != NODE_SCALAR || !text_to_integer(node->text, out) || *out < min || *out > max)
+		return reader_fail(
+			reader, node, "%s is not a whole number from %d to %d", excerpt(node, shown), min, max);
+	return 0;
+}
+
+int reader_bool(const struct reader *reader, const struct node *node, bool *out)
+{
+	char shown[EXCERPT];
+	bool yes = node->kind == NODE_SCALAR && !strcmp(node->text, "true");
+
+	if (!yes && (node->kind != NODE_SCALAR || strcmp(node->text, "false") != 0))
+		return reader_fail(reader, node, "%s is neither true nor false", excerpt(node, shown));
+	*out = yes;
+	return 0;
+}
+
+int reader_terms(const struct reader *reader, const struct node *node, struct term_list *out)
+{
+	const struct node *items = node->kind == NODE_SEQUENCE ? node->items : node;
+	size_t count = node->kind == NODE_SEQUENCE ? node->count : 1;
+
+	out->items = calloc(count ? count : 1, sizeof *out->items);
+	if (!out->items)
+		return error_memory(reader->err, count * sizeof *out->items);
+	for (size_t i = 0; i < count; i++) {
+		struct term *term = &out->items[i];
+
+		if (items[i].kind != NODE_SCALAR || !items[i].text[0])
+			return reader_fail(reader, node, "one text or a list of them is wanted here");
+		*term = (struct term){items[i].text, items[i].line, items[i].column};
+		for (size_t k = 0; k < i; k++)
+			if (!strcmp(out->items[k].text, term->text))
+				return reader_fail(reader, node, "%s stands here twice", term->text);
+	}
+	out->count = count;
+	return 0;
+}
+
+/* Refuse a key that no config has, or that the list has already. */
+static int check_key(const struct reader *reader, const struct leaf_list *list, const char *key,
+	const struct node *node)
+{
+	struct config any = {0};
+	struct text value = {0};
+	struct error refusal = {0};
+	int result = config_value(&any, key, &value, &refusal);
+
+	text_clean(&value);
+	if (result)
+		return error_at(reader->err, refusal.code, reader->path, node->key_line, node->key_column,
+			"%s", refusal.text);
+	for (size_t i = 0; i < list->count; i++)
+		if (!strcmp(list->items[i].key, key))
+			return error_at(reader->err, EX_DATAERR, reader->path, node->key_line, node->key_column,
+				"duplicate key '%s'", key);
+	return 0;
+}
+
+/* Takes `key` over. */
+static int leaf_add(
+	const struct reader *reader, struct leaf_list *list, char *key, const struct node *node)
+{
+	struct leaf *items;
+
+	if (check_key(reader, list, key, node)) {
+		free(key);
+		return -1;
+	}
+	items = realloc(list->items, (list->count + 1) * sizeof *items);
+	if (!items) {
+		free(key);
+		return error_memory(reader->err, (list->count + 1) * sizeof *items);
+	}
+	list->items = items;
+	items[list->count++] = (struct leaf){key, node};
+	return 0;
+}
+
+static int add_leaves(
+	const struct reader *reader, const struct node *node, const char *prefix, struct leaf_list *out)
+{
+	for (size_t i = 0; i < node->count; i++) {
+		const struct node *item = &node->items[i];
+		char *key;
+		int result;
+
+		if (asprintf(&key, "%s%s%s", prefix, *prefix ? "." : "", item->key) < 0)
+			return error_memory(reader->err, strlen(prefix) + strlen(item->key));
+		if (item->kind != NODE_MAPPING) {
+			TRY(leaf_add(reader, out, key, item));
+			continue;
+		}
+		result = add_leaves(reader, item, key, out);
+		free(key);
+		TRY(result);
+	}
+	return 0;
+}
+
+int reader_leaves(const struct reader *reader, const struct node *node, struct leaf_list *out)
+{
+	if (node->kind != NODE_MAPPING)
+		return reader_fail(reader, node, "a mapping of config keys is wanted here");
+	return add_leaves(reader, node, "", out);
+}
+
+void leaf_list_clean(struct leaf_list *list)
+{
+	for (size_t i = 0; i < list->count; i++)
+		free(list->items[i].key);
+	free(list->items);
+	*list = (struct leaf_list){0};
+}
+
+/* The text that config_parse reads after "key=". */
+static void add_value(struct text *out, const struct node *node)
+{
+	if (node->kind == NODE_SCALAR) {
+		text_add(out, node->text);
+		return;
+	}
+	text_add(out, "[");
+	for (size_t i = 0; i < node->count; i++) {
+		text_add(out, i ? ", " : "");
+		add_value(out, &node->items[i]);
+	}
+	text_add(out, "]");
+}
+
+int setting_list_add(
+	struct setting_list *list, const char *key, const struct node *node, struct error *err)
+{
+	struct setting *items = realloc(list->items, (list->count + 1) * sizeof *items);
+	struct text value = {0};
+
+	if (!items)
+		return error_memory(err, (list->count + 1) * sizeof *items);
+	list->items = items;
+	text_add(&value, "");
+	add_value(&value, node);
+	items += list->count;
+	*items = (struct setting){strdup(key), value.data, node->line, node->column};
+	list->count++;
+	return items->key && !value.failed ? 0 : error_memory(err, strlen(key) + value.length);
+}
+
+void setting_list_clean(struct setting_list *list)
+{
+	for (size_t i = 0; i < list->count; i++) {
+		free(list->items[i].key);
+		free(list->items[i].value);
+	}
+	free(list->items);
+	*list = (struct setting_list){0};
+}
+
+int reader_settings(const struct reader *reader, const struct node *node, struct setting_list *out)
+{
+	struct leaf_list leaves = {0};
+	int result = -1;
+
+	if (reader_leaves(reader, node, &leaves))
+		goto done;
+	for (size_t i = 0; i < leaves.count; i++)
+		if (setting_list_add(out, leaves.items[i].key, leaves.items[i].node, reader->err))
+			goto done;
+	result = 0;
+done:
+	leaf_list_clean(&leaves);
+	return result;
+}

@@ -1,0 +1,161 @@
+#include "campaign/task.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/file.h"
+
+enum { REFUSALS_MAX = 2 };
+
+void task_look(const struct campaign *campaign, struct task *task)
+{
+	run_report_read(task->run->folder, &task->report);
+	if (task->state != TASK_WAITING && task->state != TASK_ELSEWHERE)
+		return;
+	switch (task->report.state) {
+	case RUN_STATE_RUNNING:
+		task->state = TASK_ELSEWHERE;
+		task->refusals = 0;
+		break;
+	case RUN_STATE_COMPLETE:
+		task->state = TASK_COMPLETE;
+		break;
+	case RUN_STATE_FAILED:
+		task->state = campaign->options.retry ? TASK_WAITING : TASK_FAILED;
+		break;
+	case RUN_STATE_PENDING:
+	case RUN_STATE_INTERRUPTED:
+	case RUN_STATE_DAMAGED:
+		task->state = TASK_WAITING;
+		break;
+	}
+}
+
+/* Two campaigns may do this at the same moment: each writes under a name of its own. */
+static int write_config(const struct task *task, struct error *err)
+{
+	const char *folder = task->run->folder;
+	struct text config = {0}, path = {0}, final = {0};
+	char name[64];
+	int result = -1;
+
+	(void)snprintf(name, sizeof name, "config.%ld.yaml", (long)getpid());
+	config_print(&task->run->config, &config);
+	if (config.failed) {
+		error_memory(err, config.length);
+		goto done;
+	}
+	if (file_make_folders(folder, err) || file_path(&path, folder, name, err) ||
+		file_path(&final, folder, "config.yaml", err) ||
+		file_replace(&(struct file_place){.folder = folder, .name = name},
+			&(struct file_part){config.data, config.length}, 1, err))
+		goto done;
+	if (rename(path.data, final.data) != 0) {
+		error_at(err, EX_CANTCREAT, final.data, 0, 0, "cannot be written: %s", strerror(errno));
+		(void)unlink(path.data);
+		goto done;
+	}
+	result = 0;
+done:
+	text_clean(&config);
+	text_clean(&path);
+	text_clean(&final);
+	return result;
+}
+
+/* What the child does between fork and exec. Never returns. */
+static void become_run(const struct campaign *campaign, char *const *arguments, const char *log,
+	const sigset_t *mask, const struct lock *timing, pid_t parent)
+{
+	const char *program = campaign->options.program ? campaign->options.program : "/proc/self/exe";
+	int fd;
+
+	/* a group of its own: Ctrl-C reaches the campaign alone, which passes it on */
+	(void)setpgid(0, 0);
+	(void)prctl(PR_SET_PDEATHSIG, SIGTERM);
+	if (getppid() != parent)
+		_exit(EX_INTERRUPTED);
+	if (timing && timing->fd >= 0)
+		(void)fcntl(timing->fd, F_SETFD, 0);
+	fd = open("/dev/null", O_RDONLY);
+	if (fd >= 0)
+		(void)dup2(fd, STDIN_FILENO);
+	fd = open(log, O_WRONLY | O_CREAT | O_APPEND, 0666);
+	if (fd < 0 || dup2(fd, STDOUT_FILENO) < 0 || dup2(fd, STDERR_FILENO) < 0)
+		_exit(EX_CANTCREAT);
+	if (fd > STDERR_FILENO)
+		(void)close(fd);
+	(void)sigprocmask(SIG_SETMASK, mask, NULL);
+	(void)execv(program, arguments);
+	(void)dprintf(STDERR_FILENO, "talus: cannot start %s: %s\n", program, strerror(errno));
+	_exit(EX_UNAVAILABLE);
+}
+
+int task_start(const struct campaign *campaign, struct task *task, const sigset_t *mask,
+	const struct lock *timing, struct error *err)
+{
+	struct text config = {0}, log = {0};
+	pid_t parent = getpid();
+	int result = -1;
+
+	if (write_config(task, err) || file_path(&config, task->run->folder, "config.yaml", err) ||
+		file_path(&log, task->run->folder, "run.log", err))
+		goto done;
+	/* what the program has buffered would be written twice */
+	(void)fflush(NULL);
+	task->pid = fork();
+	if (task->pid < 0) {
+		error_set(err, EX_SOFTWARE, "cannot start a process: %s", strerror(errno));
+		goto done;
+	}
+	if (task->pid == 0) {
+		char *arguments[] = {"talus", "run", config.data, "-o", task->run->folder, "--quiet",
+			campaign->options.retry ? "--retry" : NULL, NULL};
+
+		become_run(campaign, arguments, log.data, mask, timing, parent);
+	}
+	(void)setpgid(task->pid, task->pid); /* whoever of the two comes first */
+	task->state = TASK_RUNNING;
+	result = 0;
+done:
+	text_clean(&config);
+	text_clean(&log);
+	return result;
+}
+
+static bool is_stop(int number)
+{
+	return number == SIGTERM || number == SIGINT || number == SIGKILL || number == SIGHUP ||
+		   number == SIGUSR1;
+}
+
+bool task_reap(const struct campaign *campaign, struct task *task)
+{
+	int status;
+	pid_t pid = waitpid(task->pid, &status, WNOHANG);
+
+	if (pid == 0 || (pid < 0 && errno == EINTR))
+		return false;
+	if (pid < 0)
+		status = 0; /* somebody else reaped it: the report tells */
+	run_report_read(task->run->folder, &task->report);
+	task->code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+	if (task->code == 0 && task->report.state == RUN_STATE_COMPLETE)
+		task->state = TASK_COMPLETE;
+	else if (WIFSIGNALED(status) ? is_stop(WTERMSIG(status)) : task->code == EX_INTERRUPTED)
+		task->state = TASK_INTERRUPTED;
+	else
+		task->state = TASK_FAILED;
+	/* 75 without our asking: as a rule another process holds the run's lock. It may have let go by
+	 * now, so look again later; a run that is refused time after time is left as it is. */
+	if (task->state == TASK_INTERRUPTED && !WIFSIGNALED(status) && !campaign->stopping &&
+		task->refusals++ < REFUSALS_MAX)
+		task->state = TASK_ELSEWHERE;
+	return true;
+}

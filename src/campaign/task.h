@@ -1,0 +1,22 @@
+/* One run of a campaign: its folder, its child, its end. */
+#ifndef TALUS_TASK_H
+#define TALUS_TASK_H
+
+#include <signal.h>
+
+#include "base/lock.h"
+#include "talus/campaign.h"
+
+/* Read the run's report into the task; a task that waits or is elsewhere changes its state with it. */
+void task_look(const struct campaign *campaign, struct task *task);
+
+/* Make the run's folder with its config.yaml, and start the child with the signal mask `mask`. The
+ * child inherits `timing` (NULL: none), which thus is held until it ends. Returns -1 with `err` when
+ * there is no child. */
+int task_start(const struct campaign *campaign, struct task *task, const sigset_t *mask,
+	const struct lock *timing, struct error *err);
+
+/* Has the child ended? Then the task has its new state. */
+bool task_reap(const struct campaign *campaign, struct task *task);
+
+#endif

@@ -1,0 +1,266 @@
+/* How a table is written down: a row of `formats` per way. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "talus/tables.h"
+
+/* Enough decimals for three significant digits. */
+static int decimals_of(const struct table_column *column, double value)
+{
+	int whole;
+
+	if (column->decimals >= 0)
+		return column->decimals;
+	if (value == 0 || !isfinite(value))
+		return 2;
+	whole = (int)floor(log10(fabs(value))) + 1;
+	return whole >= 3 ? 0 : whole < -6 ? 9 : 3 - whole;
+}
+
+/* A cell for people. */
+static void add_cell(
+	const struct table_column *column, const struct table_cell *cell, struct text *out)
+{
+	int decimals = decimals_of(column, cell->value);
+
+	switch (cell->kind) {
+	case CELL_BLANK:
+		break;
+	case CELL_TEXT:
+		text_add(out, cell->text);
+		break;
+	case CELL_MISSING:
+		text_add(out, "missing");
+		break;
+	case CELL_NUMBER:
+		text_addf(out, "%.*f", decimals, cell->value);
+		if (column->spread)
+			text_addf(out, " \u00b1 %.*f", decimals, cell->spread);
+		break;
+	}
+}
+
+/* Columns on the screen of UTF-8 text without wide or combining characters. */
+static int width_of(const char *string)
+{
+	int width = 0;
+
+	for (; *string; string++)
+		width += ((unsigned char)*string & 0xC0) != 0x80;
+	return width;
+}
+
+static int column_width(const struct table *table, size_t c)
+{
+	const struct table_column *column = &table->columns[c];
+	int width = 1;
+
+	for (size_t k = 0; k < column->head_count; k++)
+		if (width_of(column->heads[k]) > width)
+			width = width_of(column->heads[k]);
+	for (size_t row = 0; row < table->row_count; row++) {
+		struct text cell = {0};
+
+		add_cell(column, &table->cells[row * table->column_count + c], &cell);
+		if (width_of(text_string(&cell)) > width)
+			width = width_of(text_string(&cell));
+		text_clean(&cell);
+	}
+	return width;
+}
+
+static void add_padded(struct text *out, const char *string, int width, bool left, bool last)
+{
+	int blanks = width - width_of(string);
+
+	if (left)
+		text_addf(out, "%s%*s", string, last ? 0 : blanks, "");
+	else
+		text_addf(out, "%*s%s", blanks, "", string);
+	if (!last)
+		text_add(out, "  ");
+}
+
+/* The heads of labels stand on the last line, those of numbers begin on the first. */
+static const char *head_in_line(const struct table *table, size_t c, size_t line, size_t lines)
+{
+	const struct table_column *column = &table->columns[c];
+	size_t skipped = column->label ? lines - column->head_count : 0;
+
+	if (line < skipped || line - skipped >= column->head_count)
+		return "";
+	return column->heads[line - skipped];
+}
+
+static void trim_line(struct text *out)
+{
+	while (out->length && out->data[out->length - 1] == ' ')
+		out->data[--out->length] = '\0';
+	text_add(out, "\n");
+}
+
+static void print_text(const struct table *table, struct text *out)
+{
+	size_t lines = 1;
+
+	for (size_t c = 0; c < table->column_count; c++)
+		if (table->columns[c].head_count > lines)
+			lines = table->columns[c].head_count;
+	text_addf(out, "%s\n\n", text_string(&table->title));
+	for (size_t line = 0; line < lines; line++) {
+		for (size_t c = 0; c < table->column_count; c++)
+			add_padded(out, head_in_line(table, c, line, lines), column_width(table, c),
+				table->columns[c].label, c + 1 == table->column_count);
+		trim_line(out);
+	}
+	for (size_t c = 0; c < table->column_count; c++)
+		for (int i = column_width(table, c) + (c + 1 < table->column_count ? 2 : 0); i > 0; i--)
+			text_add(out, "-");
+	text_add(out, "\n");
+	for (size_t row = 0; row < table->row_count; row++) {
+		for (size_t c = 0; c < table->column_count; c++) {
+			struct text cell = {0};
+
+			add_cell(&table->columns[c], &table->cells[row * table->column_count + c], &cell);
+			add_padded(out, text_string(&cell), column_width(table, c), table->columns[c].label,
+				c + 1 == table->column_count);
+			text_clean(&cell);
+		}
+		trim_line(out);
+	}
+	text_addf(out, "\n%s", text_string(&table->notes));
+}
+
+/* All heads of a column in one line. */
+static void join_heads(const struct table_column *column, struct text *out)
+{
+	for (size_t k = 0; k < column->head_count; k++)
+		text_addf(out, "%s%s", k ? ", " : "", column->heads[k]);
+}
+
+static void add_markdown(struct text *out, const char *string)
+{
+	text_add(out, " ");
+	for (; *string; string++) {
+		if (strchr("|\\`*_<", *string))
+			text_add(out, "\\");
+		text_add_bytes(out, *string == '\n' ? " " : string, 1);
+	}
+	text_add(out, " |");
+}
+
+static void print_markdown(const struct table *table, struct text *out)
+{
+	text_addf(out, "**%s**\n\n|", text_string(&table->title));
+	for (size_t c = 0; c < table->column_count; c++) {
+		struct text heads = {0};
+
+		join_heads(&table->columns[c], &heads);
+		add_markdown(out, text_string(&heads));
+		text_clean(&heads);
+	}
+	text_add(out, "\n|");
+	for (size_t c = 0; c < table->column_count; c++)
+		text_add(out, table->columns[c].label ? " :-- |" : " --: |");
+	for (size_t row = 0; row < table->row_count; row++) {
+		text_add(out, "\n|");
+		for (size_t c = 0; c < table->column_count; c++) {
+			struct text cell = {0};
+
+			add_cell(&table->columns[c], &table->cells[row * table->column_count + c], &cell);
+			add_markdown(out, text_string(&cell));
+			text_clean(&cell);
+		}
+	}
+	text_add(out, "\n\n");
+	for (const char *line = text_string(&table->notes); *line;) {
+		size_t length = strcspn(line, "\n");
+
+		text_addf(out, "- %.*s\n", (int)length, line);
+		line += length + (line[length] == '\n');
+	}
+}
+
+/* RFC 4180: quotes where a field holds a comma, a quote or a line end; lines end in CR LF. */
+static void add_field(struct text *out, const char *string, bool first)
+{
+	if (!first)
+		text_add(out, ",");
+	if (!strpbrk(string, ",\"\r\n")) {
+		text_add(out, string);
+		return;
+	}
+	text_add(out, "\"");
+	for (; *string; string++) {
+		if (*string == '"')
+			text_add(out, "\"");
+		text_add_bytes(out, string, 1);
+	}
+	text_add(out, "\"");
+}
+
+static void add_csv_heads(const struct table *table, struct text *out)
+{
+	for (size_t c = 0; c < table->column_count; c++) {
+		struct text heads = {0};
+
+		join_heads(&table->columns[c], &heads);
+		add_field(out, text_string(&heads), c == 0);
+		text_add(&heads, ", \u00b1");
+		if (table->columns[c].spread)
+			add_field(out, text_string(&heads), false);
+		text_clean(&heads);
+	}
+	text_add(out, "\r\n");
+}
+
+/* Numbers in full: a CSV file is read by programs. */
+static void add_csv_cell(
+	const struct table_column *column, const struct table_cell *cell, bool first, struct text *out)
+{
+	bool number = cell->kind == CELL_NUMBER;
+	char buffer[TEXT_REAL_SIZE];
+	struct text words = {0};
+
+	if (number) {
+		add_field(out, text_real(cell->value, buffer), first);
+	} else {
+		add_cell(column, cell, &words);
+		add_field(out, text_string(&words), first);
+		text_clean(&words);
+	}
+	if (column->spread)
+		add_field(out, number ? text_real(cell->spread, buffer) : "", false);
+}
+
+static void print_csv(const struct table *table, struct text *out)
+{
+	add_csv_heads(table, out);
+	for (size_t row = 0; row < table->row_count; row++) {
+		for (size_t c = 0; c < table->column_count; c++)
+			add_csv_cell(
+				&table->columns[c], &table->cells[row * table->column_count + c], c == 0, out);
+		text_add(out, "\r\n");
+	}
+}
+
+static const struct table_format formats[] = {
+	{"text", false, print_text},
+	{"markdown", false, print_markdown},
+	{"csv", true, print_csv},
+};
+
+const struct table_format *table_format_find(const char *name)
+{
+	for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+		if (!strcmp(name, formats[i].name))
+			return &formats[i];
+	return NULL;
+}
+
+void table_format_names(struct text *out)
+{
+	for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+		text_addf(out, "%s%s", i ? ", " : "", formats[i].name);
+}

@@ -1,0 +1,343 @@
+#include "tables/layout.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "config/quantity.h"
+#include "talus/config.h"
+
+static int fail_at(const struct layout *layout, const struct term *term, struct error *err,
+	const char *format, ...) __attribute__((format(printf, 4, 5)));
+
+static int fail_at(const struct layout *layout, const struct term *term, struct error *err,
+	const char *format, ...)
+{
+	char message[1024];
+	va_list args;
+
+	va_start(args, format);
+	(void)vsnprintf(message, sizeof message, format, args);
+	va_end(args);
+	return error_at(err, EX_DATAERR, layout->experiment->path, term->line, term->column,
+		"table '%s': %s", layout->wanted->name.text, message);
+}
+
+/* Give a placeless error the place of `term`. */
+static int place_error(const struct layout *layout, const struct term *term, struct error *err)
+{
+	const struct error lower = *err;
+
+	if (err->code != EX_DATAERR || err->file[0])
+		return -1;
+	*err = (struct error){0};
+	return fail_at(layout, term, err, "%s", lower.text);
+}
+
+/* The value of a key: its author's text where the run has one that is in force. */
+static int part_text(
+	const struct layout *layout, const struct experiment_run *run, const char *key, char **out)
+{
+	const struct setting_list *overrides = &layout->experiment->overrides;
+	const char *text = NULL;
+
+	for (size_t i = 0; i < run->settings.count; i++)
+		if (!strcmp(run->settings.items[i].key, key))
+			text = run->settings.items[i].value;
+	for (size_t i = 0; i < overrides->count; i++)
+		if (!strcmp(overrides->items[i].key, key))
+			text = NULL;
+	*out = text ? strdup(text) : NULL;
+	return text && !*out ? -1 : 0;
+}
+
+static void label_clean(struct label *label, size_t keys)
+{
+	for (size_t i = 0; label->parts && i < keys; i++)
+		free(label->parts[i]);
+	free(label->parts);
+	free(label->identity);
+}
+
+static int label_make(const struct layout *layout, const struct experiment_run *run,
+	const struct term_list *keys, struct label *label, struct error *err)
+{
+	struct text identity = {0};
+
+	label->parts = calloc(keys->count + 1, sizeof *label->parts);
+	if (!label->parts)
+		return error_memory(err, (keys->count + 1) * sizeof *label->parts);
+	text_add(&identity, "");
+	for (size_t i = 0; i < keys->count; i++) {
+		struct text value = {0};
+
+		if (config_value(&run->config, keys->items[i].text, &value, err)) {
+			text_clean(&value);
+			text_clean(&identity);
+			return place_error(layout, &keys->items[i], err);
+		}
+		text_addf(&identity, "%s\n", text_string(&value));
+		if (part_text(layout, run, keys->items[i].text, &label->parts[i]))
+			value.failed = true;
+		if (!label->parts[i])
+			label->parts[i] = strdup(text_string(&value));
+		identity.failed |= value.failed || !label->parts[i];
+		text_clean(&value);
+	}
+	label->identity = identity.data;
+	return identity.failed ? error_memory(err, identity.length) : 0;
+}
+
+/* The index of the run's label, added when it is new. */
+static int label_index(const struct layout *layout, const struct experiment_run *run,
+	const struct term_list *keys, struct label_list *list, long *index, struct error *err)
+{
+	struct label label = {0}, *items;
+	size_t i = 0;
+
+	list->keys = keys->count;
+	if (label_make(layout, run, keys, &label, err))
+		goto refused;
+	while (i < list->count && strcmp(list->items[i].identity, label.identity) != 0)
+		i++;
+	*index = (long)i;
+	if (i < list->count) {
+		label_clean(&label, keys->count);
+		return 0;
+	}
+	items = realloc(list->items, (list->count + 1) * sizeof *items);
+	if (!items) {
+		error_memory(err, (list->count + 1) * sizeof *items);
+		goto refused;
+	}
+	list->items = items;
+	items[list->count++] = label;
+	return 0;
+refused:
+	label_clean(&label, keys->count);
+	return -1;
+}
+
+/* Does the run have the values of `only`? A value that this run cannot have is not its own. */
+static int is_wanted(
+	const struct layout *layout, const struct experiment_run *run, bool *wanted, struct error *err)
+{
+	const struct setting_list *only = &layout->wanted->only;
+	struct text mine = {0}, other = {0};
+	struct error refusal = {0};
+	struct config config;
+	int result = 0;
+
+	*wanted = true;
+	if (!only->count)
+		return 0;
+	if (experiment_vary(layout->experiment, run, only, &config, &refusal)) {
+		*wanted = false;
+		if (refusal.code != EX_DATAERR)
+			*err = refusal;
+		return refusal.code == EX_DATAERR ? 0 : -1;
+	}
+	for (size_t i = 0; !result && *wanted && i < only->count; i++) {
+		const struct setting *setting = &only->items[i];
+
+		mine.length = other.length = 0;
+		result = config_value(&run->config, setting->key, &mine, err) ||
+				 config_value(&config, setting->key, &other, err);
+		*wanted = !result && !strcmp(text_string(&mine), text_string(&other));
+	}
+	text_clean(&mine);
+	text_clean(&other);
+	return result ? -1 : 0;
+}
+
+/* Nothing has the values of `only`: the reason is one that no run can have, or just that. */
+static int fail_empty(const struct layout *layout, struct error *err)
+{
+	struct config config;
+
+	for (size_t i = 0; i < layout->experiment->run_count; i++)
+		TRY(experiment_vary(
+			layout->experiment, &layout->experiment->runs[i], &layout->wanted->only, &config, err));
+	return fail_at(layout, &layout->wanted->name, err, "no run has the values of its 'only'");
+}
+
+static int place_runs(struct layout *layout, struct error *err)
+{
+	const struct experiment *experiment = layout->experiment;
+	bool any = false;
+
+	for (size_t i = 0; i < experiment->run_count; i++) {
+		const struct experiment_run *run = &experiment->runs[i];
+		struct place *place = &layout->places[i];
+		bool wanted;
+
+		*place = (struct place){.row = LAYOUT_NOWHERE, .column = LAYOUT_NOWHERE};
+		TRY(is_wanted(layout, run, &wanted, err));
+		if (!wanted)
+			continue;
+		any = true;
+		TRY(label_index(layout, run, &layout->wanted->rows, &layout->rows, &place->row, err));
+		TRY(label_index(
+			layout, run, &layout->wanted->columns, &layout->columns, &place->column, err));
+	}
+	return any ? 0 : fail_empty(layout, err);
+}
+
+/* Two different runs in one cell: the table lacks the key in which they differ. */
+static int refuse_crowds(const struct layout *layout, struct error *err)
+{
+	const struct experiment_run *runs = layout->experiment->runs;
+	size_t columns = layout->columns.count;
+	long *first = malloc((layout->rows.count * columns + 1) * sizeof *first);
+	int result = 0;
+
+	if (!first)
+		return error_memory(err, layout->rows.count * columns * sizeof *first);
+	for (size_t i = 0; i < layout->rows.count * columns; i++)
+		first[i] = LAYOUT_NOWHERE;
+	for (size_t i = 0; !result && i < layout->experiment->run_count; i++) {
+		const struct place *place = &layout->places[i];
+		long *holder;
+
+		if (place->row == LAYOUT_NOWHERE)
+			continue;
+		holder = &first[(size_t)place->row * columns + (size_t)place->column];
+		if (*holder == LAYOUT_NOWHERE)
+			*holder = (long)i;
+		else if (strcmp(runs[*holder].hash, runs[i].hash) != 0)
+			result = fail_at(layout, &layout->wanted->name, err,
+				"runs %s and %s fall into one cell; rows, columns or only must name what "
+				"they differ in",
+				runs[*holder].id, runs[i].id);
+	}
+	free(first);
+	return result;
+}
+
+static int find_partners(struct layout *layout, enum metric_partner kind, const char *noun,
+	const struct setting_list *change, struct error *err)
+{
+	const struct experiment *experiment = layout->experiment;
+
+	for (size_t i = 0; i < experiment->run_count; i++) {
+		const struct experiment_run *run = &experiment->runs[i];
+		struct config config;
+		size_t *index = &layout->places[i].partner[kind];
+
+		if (layout->places[i].row == LAYOUT_NOWHERE)
+			continue;
+		TRY(experiment_vary(experiment, run, change, &config, err));
+		TRY(experiment_find(experiment, &config, run->repeat, index, err));
+		if (*index == experiment->run_count)
+			return fail_at(layout, &layout->wanted->name, err,
+				"the %s of run %s is not a run of this experiment", noun, run->id);
+	}
+	return 0;
+}
+
+static int pair_runs(struct layout *layout, struct error *err)
+{
+	static const char *const nouns[] = {"", "baseline", "reference"};
+	const struct setting_list *changes[] = {
+		NULL, &layout->wanted->baseline, &layout->wanted->reference};
+	bool needed[3] = {false};
+
+	for (size_t i = 0; i < layout->measure_count; i++)
+		needed[layout->measures[i].metric->partner] = true;
+	for (int kind = PARTNER_BASELINE; kind <= PARTNER_REFERENCE; kind++) {
+		if (!needed[kind])
+			continue;
+		if (!changes[kind]->count)
+			return fail_at(layout, &layout->wanted->name, err, "it lacks its '%s'", nouns[kind]);
+		TRY(find_partners(layout, (enum metric_partner)kind, nouns[kind], changes[kind], err));
+	}
+	return 0;
+}
+
+/* A time at which some run of the table stores no profile would leave its cell missing for ever. */
+static int check_profile(const struct layout *layout, const struct term *term, double at,
+	const char *at_text, struct error *err)
+{
+	for (size_t i = 0; i < layout->experiment->run_count; i++) {
+		const struct config *config = &layout->experiment->runs[i].config;
+		const struct real_list *times = &config->output.profiles_at;
+		bool found = false;
+
+		for (int k = 0; k < times->count; k++)
+			found |= times->values[k] == (isnan(at) ? config->time.end : at);
+		if (layout->places[i].row != LAYOUT_NOWHERE && !found)
+			return fail_at(layout, term, err, "run %s has no %s in its output.profiles_at",
+				layout->experiment->runs[i].id, at_text);
+	}
+	return 0;
+}
+
+static int add_measure(struct layout *layout, const struct metric *metric, const struct term *name,
+	const struct term *at, struct error *err)
+{
+	struct measure *measure = &layout->measures[layout->measure_count++];
+
+	*measure = (struct measure){metric, NAN, at ? at->text : NULL};
+	if (at && quantity_read(at->text, "s", &measure->at, err))
+		return place_error(layout, at, err);
+	return metric->profile
+			   ? check_profile(layout, at ? at : name, measure->at, at ? at->text : "time.end", err)
+			   : 0;
+}
+
+/* Every metric once, those of a profile once for every time. */
+static int list_measures(struct layout *layout, struct error *err)
+{
+	const struct term_list *names = &layout->wanted->metrics, *at = &layout->wanted->at;
+
+	layout->measures = calloc(names->count * (at->count + 1), sizeof *layout->measures);
+	if (!layout->measures)
+		return error_memory(err, names->count * (at->count + 1) * sizeof *layout->measures);
+	for (size_t i = 0; i < names->count; i++) {
+		const char *nearest;
+		const struct metric *metric = metric_find(names->items[i].text, &nearest);
+
+		if (!metric)
+			return fail_at(layout, &names->items[i], err,
+				"unknown metric '%s'; the nearest known one is '%s'", names->items[i].text,
+				nearest);
+		if (!metric->profile || !at->count)
+			TRY(add_measure(layout, metric, &names->items[i], NULL, err));
+		for (size_t k = 0; metric->profile && k < at->count; k++)
+			TRY(add_measure(layout, metric, &names->items[i], &at->items[k], err));
+	}
+	return 0;
+}
+
+int layout_create(struct layout *layout, const struct experiment *experiment,
+	const struct experiment_table *wanted, struct error *err)
+{
+	*layout = (struct layout){.experiment = experiment, .wanted = wanted};
+	layout->places = calloc(experiment->run_count, sizeof *layout->places);
+	if (!layout->places)
+		return error_memory(err, experiment->run_count * sizeof *layout->places);
+	TRY(place_runs(layout, err));
+	TRY(refuse_crowds(layout, err));
+	TRY(list_measures(layout, err));
+	TRY(pair_runs(layout, err));
+	return layout_read_published(layout, err);
+}
+
+static void label_list_clean(struct label_list *list)
+{
+	for (size_t i = 0; i < list->count; i++)
+		label_clean(&list->items[i], list->keys);
+	free(list->items);
+}
+
+void layout_clean(struct layout *layout)
+{
+	label_list_clean(&layout->rows);
+	label_list_clean(&layout->columns);
+	free(layout->measures);
+	free(layout->places);
+	free(layout->published);
+	*layout = (struct layout){0};
+}

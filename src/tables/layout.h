@@ -1,0 +1,57 @@
+/* Where every run of an experiment stands in a table, before any run file is opened. */
+#ifndef TALUS_LAYOUT_H
+#define TALUS_LAYOUT_H
+
+#include <stddef.h>
+
+#include "tables/metric.h"
+#include "talus/experiment.h"
+
+/* The values that a row or a column stands for. */
+struct label {
+	char *identity; /* the same for equal values, however written */
+	char **parts;   /* one per key, as the author wrote it, [keys] */
+};
+
+struct label_list {
+	struct label *items; /* [count], in the order of the runs */
+	size_t count;
+	size_t keys;
+};
+
+/* One number per cell. */
+struct measure {
+	const struct metric *metric;
+	double at;           /* profile time, s; NaN: the end of each run */
+	const char *at_text; /* as written, NULL: the end */
+};
+
+enum { LAYOUT_NOWHERE = -1 };
+
+/* The place of a run. */
+struct place {
+	long row, column;  /* LAYOUT_NOWHERE: not in this table */
+	size_t partner[3]; /* by enum metric_partner: index of the run it is compared with */
+};
+
+struct layout {
+	const struct experiment *experiment;
+	const struct experiment_table *wanted;
+	struct label_list rows, columns;
+	struct measure *measures; /* [measure_count] */
+	size_t measure_count;
+	struct place *places;   /* one per run of the experiment */
+	const char **published; /* [rows][columns][measures], NULL: blank; NULL if there are none */
+};
+
+/* EX_DATAERR with the place in the experiment file where it asks for what cannot be. Clean in every
+ * case. */
+int layout_create(struct layout *layout, const struct experiment *experiment,
+	const struct experiment_table *wanted, struct error *err);
+
+void layout_clean(struct layout *layout);
+
+/* Read the published values: src/tables/published.c. */
+int layout_read_published(struct layout *layout, struct error *err);
+
+#endif

@@ -1,0 +1,231 @@
+#include "tables/metric.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "run/run_file_parts.h"
+
+static size_t dataset_count(const struct dataset *data)
+{
+	size_t count = 1;
+
+	for (int i = 0; i < data->rank; i++)
+		count *= data->extent[i];
+	return count;
+}
+
+/* A dataset that holds at least one value. */
+static int read_values(
+	struct run_file *file, const char *name, struct dataset *data, struct error *err)
+{
+	TRY(run_file_dataset(file, name, data, err));
+	if (dataset_count(data))
+		return 0;
+	free(data->values);
+	data->values = NULL;
+	return error_set(err, EX_DATAERR, "dataset '%s' is empty", name);
+}
+
+static int series_greatest(
+	const struct sample *sample, const char *name, double *out, struct error *err)
+{
+	struct dataset data = {0};
+
+	TRY(read_values(sample->file, name, &data, err));
+	*out = data.values[0];
+	for (size_t i = 1; i < dataset_count(&data); i++)
+		*out = fmax(*out, data.values[i]);
+	free(data.values);
+	return 0;
+}
+
+static int series_last(
+	const struct sample *sample, const char *name, double *out, struct error *err)
+{
+	struct dataset data = {0};
+
+	TRY(read_values(sample->file, name, &data, err));
+	*out = data.values[dataset_count(&data) - 1];
+	free(data.values);
+	return 0;
+}
+
+/* In percent of the CPU time of the whole run. */
+static int series_share(
+	const struct sample *sample, const char *name, double *out, struct error *err)
+{
+	struct dataset data = {0};
+	double all, sum = 0;
+
+	TRY(run_file_real(sample->file, "cpu_seconds", &all, err));
+	TRY(read_values(sample->file, name, &data, err));
+	for (size_t i = 0; i < dataset_count(&data); i++)
+		sum += data.values[i];
+	free(data.values);
+	*out = 100 * sum / all;
+	return 0;
+}
+
+static int iterations(const struct sample *sample, double *out, struct error *err)
+{
+	return series_greatest(sample, "pressure_iterations", out, err);
+}
+
+static int coarse_iterations(const struct sample *sample, double *out, struct error *err)
+{
+	return series_greatest(sample, "coarse_iterations", out, err);
+}
+
+static int cpu_seconds(const struct sample *sample, double *out, struct error *err)
+{
+	return run_file_real(sample->file, "cpu_seconds", out, err);
+}
+
+static int speed_up(const struct sample *sample, double *out, struct error *err)
+{
+	double mine, baseline;
+
+	TRY(run_file_real(sample->file, "cpu_seconds", &mine, err));
+	TRY(run_file_real(sample->partner, "cpu_seconds", &baseline, err));
+	*out = baseline / mine;
+	return 0;
+}
+
+static int share_transport(const struct sample *sample, double *out, struct error *err)
+{
+	return series_share(sample, "cpu_transport", out, err);
+}
+
+static int share_friction(const struct sample *sample, double *out, struct error *err)
+{
+	return series_share(sample, "cpu_friction", out, err);
+}
+
+static int share_pressure(const struct sample *sample, double *out, struct error *err)
+{
+	return series_share(sample, "cpu_pressure", out, err);
+}
+
+static int steps(const struct sample *sample, double *out, struct error *err)
+{
+	(void)err;
+	*out = (double)run_file_summary(sample->file)->step;
+	return 0;
+}
+
+/* The final front, from the gate. */
+static int runout(const struct sample *sample, double *out, struct error *err)
+{
+	TRY(series_last(sample, "front_position", out, err));
+	*out -= sample->config->initial.front;
+	return 0;
+}
+
+/* The row of `time` in profile_time. Profiles are stored at the very times that were asked for; the
+ * tolerance is for times written in other units. */
+static int find_profile(struct run_file *file, double time, size_t *row, struct error *err)
+{
+	struct dataset times = {0};
+
+	TRY(read_values(file, "profile_time", &times, err));
+	*row = 0;
+	for (size_t i = 1; i < dataset_count(&times); i++)
+		if (fabs(times.values[i] - time) < fabs(times.values[*row] - time))
+			*row = i;
+	if (fabs(times.values[*row] - time) > 1e-9 * fmax(1, fabs(time)))
+		(void)error_set(err, EX_DATAERR, "no profile at %g s", time);
+	free(times.values);
+	return err->code ? -1 : 0;
+}
+
+/* h over x at a time. `values` belongs to the caller. */
+static int read_thickness(
+	struct run_file *file, double time, double **values, size_t *cells, struct error *err)
+{
+	struct dataset h = {0};
+	size_t row;
+
+	*values = NULL;
+	TRY(find_profile(file, time, &row, err));
+	TRY(read_values(file, "h", &h, err));
+	if (h.rank != 2 || row >= h.extent[0]) {
+		free(h.values);
+		return error_set(err, EX_DATAERR, "dataset 'h' is not profile_time by x");
+	}
+	*cells = h.extent[1];
+	memmove(h.values, h.values + row * *cells, *cells * sizeof *h.values);
+	*values = h.values;
+	return 0;
+}
+
+/* ||h - h_ref|| / ||h_ref - h_i|| in percent, over x, in the norm of this power: the papers' errors
+ * are against the mass above the erodible bed. */
+static int difference(const struct sample *sample, int power, double *out, struct error *err)
+{
+	double *h = NULL, *reference = NULL, above = 0, apart = 0;
+	size_t cells, reference_cells;
+	int result = -1;
+
+	if (read_thickness(sample->file, sample->at, &h, &cells, err) ||
+		read_thickness(sample->partner, sample->at, &reference, &reference_cells, err))
+		goto done;
+	if (cells != reference_cells) {
+		error_set(
+			err, EX_DATAERR, "%zu cells here and %zu in the reference", cells, reference_cells);
+		goto done;
+	}
+	for (size_t i = 0; i < cells; i++) {
+		apart += pow(fabs(h[i] - reference[i]), power);
+		above += pow(fabs(reference[i] - sample->config->erodible_bed_thickness), power);
+	}
+	*out = 100 * pow(apart / above, 1.0 / power);
+	result = 0;
+done:
+	free(h);
+	free(reference);
+	return result;
+}
+
+static int l1_difference(const struct sample *sample, double *out, struct error *err)
+{
+	return difference(sample, 1, out, err);
+}
+
+static int l2_difference(const struct sample *sample, double *out, struct error *err)
+{
+	return difference(sample, 2, out, err);
+}
+
+static const struct metric metrics[] = {
+	{"iterations", "iterations", 0, PARTNER_NONE, false, iterations},
+	{"coarse-iterations", "coarse iterations", 0, PARTNER_NONE, false, coarse_iterations},
+	{"cpu-seconds", "CPU s", -1, PARTNER_NONE, false, cpu_seconds},
+	{"speed-up", "speed-up", 2, PARTNER_BASELINE, false, speed_up},
+	{"step-share-transport", "step 1 %", 1, PARTNER_NONE, false, share_transport},
+	{"step-share-friction", "step 2 %", 1, PARTNER_NONE, false, share_friction},
+	{"step-share-pressure", "step 3 %", 1, PARTNER_NONE, false, share_pressure},
+	{"steps", "steps", 0, PARTNER_NONE, false, steps},
+	{"runout", "runout m", 3, PARTNER_NONE, false, runout},
+	{"l1-difference", "l1 %", 2, PARTNER_REFERENCE, true, l1_difference},
+	{"l2-difference", "l2 %", 2, PARTNER_REFERENCE, true, l2_difference},
+};
+
+const struct metric *metric_find(const char *name, const char **nearest)
+{
+	int best = INT_MAX;
+
+	*nearest = "";
+	for (size_t i = 0; i < sizeof metrics / sizeof *metrics; i++) {
+		int distance = text_distance(name, metrics[i].name);
+
+		if (!distance)
+			return &metrics[i];
+		if (distance < best) {
+			best = distance;
+			*nearest = metrics[i].name;
+		}
+	}
+	return NULL;
+}

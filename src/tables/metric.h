@@ -1,0 +1,35 @@
+/* What a cell of a table shows: a function of one run file, or of it and another. */
+#ifndef TALUS_METRIC_H
+#define TALUS_METRIC_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "talus/config.h"
+#include "talus/error.h"
+#include "talus/run_file.h"
+#include "talus/text.h"
+
+enum metric_partner { PARTNER_NONE, PARTNER_BASELINE, PARTNER_REFERENCE };
+
+struct sample {
+	struct run_file *file;
+	const struct config *config;
+	struct run_file *partner; /* of the kind the metric asks for, else NULL */
+	double at;                /* profile time, s */
+};
+
+struct metric {
+	const char *name;   /* as an experiment calls it */
+	const char *header; /* with its unit */
+	int decimals;       /* -1: three significant digits */
+	enum metric_partner partner;
+	bool profile; /* taken at a profile time */
+	/* EX_DATAERR where the file lacks what is needed. */
+	int (*value)(const struct sample *sample, double *out, struct error *err);
+};
+
+/* NULL if there is none of that name; then `nearest` is the name that comes closest. */
+const struct metric *metric_find(const char *name, const char **nearest);
+
+#endif
