@@ -67,7 +67,8 @@ static int check_mass(struct run_file *file, struct text *out, struct error *err
 	for (size_t i = 0; i < mass.extent[0]; i++) {
 		double off = fabs(mass.values[i] + outflow.values[i] - first);
 
-		worst = off <= worst ? worst : off; /* takes a NaN over */
+		if (isnan(off) || off > worst) /* once a NaN, always a NaN */
+			worst = off;
 	}
 	if (!(worst <= MASS_TOLERANCE * fabs(first)))
 		text_addf(out, "mass and mass_outflow add up to %.17g at first and %.3g from it later\n",
