@@ -47,9 +47,9 @@ static int read_options(int argc, char **argv, struct info_options *options)
 }
 
 static int add_attribute(
-	struct run_file *file, const char *label, const char *name, struct text *out, struct error *err)
+	struct run_file *file, const char *name, struct text *out, struct error *err)
 {
-	text_addf(out, "  %-12s", label);
+	text_addf(out, "  %-23s", name);
 	TRY(run_file_text(file, name, out, err));
 	text_add(out, "\n");
 	return 0;
@@ -68,7 +68,7 @@ static int add_config(struct run_file *file, struct text *out, struct error *err
 	if (result == 0 && config_parse(&config, text_string(&stored), stored.length,
 						   run_file_path(file), NULL, 0, &other_version) == 0)
 		for (size_t i = 0; i < sizeof keys / sizeof *keys && result == 0; i++) {
-			text_addf(out, "  %s: ", keys[i]);
+			text_addf(out, "  %-23s", keys[i]);
 			result = config_value(&config, keys[i], out, err);
 			text_add(out, "\n");
 		}
@@ -89,21 +89,21 @@ static int add_summary(struct run_file *file, struct text *out, struct error *er
 	TRY(run_file_real(file, "attempts", &attempts, err));
 	TRY(run_file_dataset(file, "/time", &times, err));
 	free(times.values);
-	text_addf(out, "%s\n  %-12s%s\n  %-12s%llu steps to t = %g s\n", run_file_path(file), "status",
+	text_addf(out, "%s\n  %-23s%s\n  %-23s%llu steps to t = %g s\n", run_file_path(file), "status",
 		run_status_name(summary->status), "done", (unsigned long long)summary->step, summary->time);
 	if (summary->status == RUN_FAILED)
-		TRY(add_attribute(file, "reason", "reason", out, err));
-	text_addf(out, "  %-12s%s in %g attempt%s\n", "CPU time", clock_span(cpu, span), attempts,
+		TRY(add_attribute(file, "reason", out, err));
+	text_addf(out, "  %-23s%s in %g attempt%s\n", "CPU time", clock_span(cpu, span), attempts,
 		attempts == 1 ? "" : "s");
-	text_addf(out, "  %-12s%s, %zu recorded times\n", "size",
+	text_addf(out, "  %-23s%s, %zu recorded times\n", "size",
 		file_size_text((double)size, size_text), times.extent[0]);
-	TRY(add_attribute(file, "created", "created", out, err));
-	TRY(add_attribute(file, "host", "host", out, err));
-	TRY(add_attribute(file, "talus", "talus_version", out, err));
-	TRY(add_attribute(file, "revision", "git_revision", out, err));
-	TRY(add_attribute(file, "compiler", "compiler", out, err));
-	TRY(add_attribute(file, "model", "model", out, err));
-	TRY(add_attribute(file, "config hash", "config_hash", out, err));
+	TRY(add_attribute(file, "created", out, err));
+	TRY(add_attribute(file, "host", out, err));
+	TRY(add_attribute(file, "talus_version", out, err));
+	TRY(add_attribute(file, "git_revision", out, err));
+	TRY(add_attribute(file, "compiler", out, err));
+	TRY(add_attribute(file, "model", out, err));
+	TRY(add_attribute(file, "config_hash", out, err));
 	return add_config(file, out, err);
 }
 

@@ -97,12 +97,12 @@ static int compare_dataset(
 	return result;
 }
 
-/* Clocks are never the same twice. */
-static bool is_clock(const char *path)
+/* Clocks are never the same twice, and axes without values say only what their datasets say. */
+static bool is_exempt(const char *path)
 {
 	const char *name = strrchr(path, '/') + 1;
 
-	return !strncmp(name, "cpu_", 4) || !strncmp(name, "wall_", 5);
+	return !strncmp(name, "cpu_", 4) || !strncmp(name, "wall_", 5) || !strncmp(name, "index_", 6);
 }
 
 int compare_run_files(struct run_file *a, struct run_file *b, struct text *out, struct error *err)
@@ -115,12 +115,14 @@ int compare_run_files(struct run_file *a, struct run_file *b, struct text *out, 
 		run_file_names(b, &second, err) != 0)
 		goto done;
 	for (char *path = strtok_r(first.data, "\n", &rest); path; path = strtok_r(NULL, "\n", &rest))
-		if (!run_file_has(b, path))
+		if (is_exempt(path))
+			continue;
+		else if (!run_file_has(b, path))
 			text_addf(out, "%s: only in %s\n", path, run_file_path(a));
-		else if (!is_clock(path) && compare_dataset(a, b, path, out, err) != 0)
+		else if (compare_dataset(a, b, path, out, err) != 0)
 			goto done;
 	for (char *path = strtok_r(second.data, "\n", &rest); path; path = strtok_r(NULL, "\n", &rest))
-		if (!run_file_has(a, path))
+		if (!is_exempt(path) && !run_file_has(a, path))
 			text_addf(out, "%s: only in %s\n", path, run_file_path(b));
 	result = out->failed ? error_memory(err, out->capacity) : 0;
 done:

@@ -1,0 +1,2 @@
+# the build
+talus --version | sed -E 's/\(.*\)/(...)/'
