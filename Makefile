@@ -65,7 +65,7 @@ $(BUILD)/%.o: %.c $(BUILD)/flags
 $(BUILD)/flags: FORCE
 	@mkdir -p $(@D)
 	@echo '$(CC) $(CFLAGS_ALL)' | cmp -s - $@ || echo '$(CC) $(CFLAGS_ALL)' > $@
-FORCE:
+.PHONY: FORCE
 
 # What a run file says about its build. Only this object is made again when the revision changes.
 $(BUILD)/src/base/build.o: private DEFINES = -DTALUS_REVISION='"$(REVISION)"' -DTALUS_FLAGS='"$(strip $(OPT) $(CFLAGS))"'

@@ -89,11 +89,11 @@ struct config {
  * that the file or a setting says wrongly (with file, line and column, or citing --set), EX_NOINPUT is
  * reported as EX_DATAERR too, EX_SOFTWARE out of memory. */
 int config_read(struct config *config, const char *path, const char *const *settings, int count,
-    struct error *err);
+	struct error *err);
 
 /* The same from text in memory; `name` stands for the file in messages. */
 int config_parse(struct config *config, const char *text, size_t length, const char *name,
-    const char *const *settings, int count, struct error *err);
+	const char *const *settings, int count, struct error *err);
 
 /* The config as YAML in SI units with every key; config_parse reads it back to the same bits. */
 void config_print(const struct config *config, struct text *out);

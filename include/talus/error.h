@@ -22,11 +22,11 @@ struct error {
 
 /* Set `err` unless it already holds an error: the lowest message is the one to keep. Return -1. */
 int error_set(struct error *err, int code, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+	__attribute__((format(printf, 3, 4)));
 
 /* The same for a place in a file; line and column 0 are left out. */
 int error_at(struct error *err, int code, const char *file, int line, int column,
-    const char *format, ...) __attribute__((format(printf, 6, 7)));
+	const char *format, ...) __attribute__((format(printf, 6, 7)));
 
 /* Put "context: " before the text of an error that is set. Return -1. */
 int error_context(struct error *err, const char *format, ...) __attribute__((format(printf, 2, 3)));

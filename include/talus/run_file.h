@@ -29,7 +29,7 @@ int run_file_open(const char *path, struct run_file **out, const char **warning,
  * is damaged or missing. `warning` is filled with a sentence, or left empty. EX_DATAERR when no
  * generation is good; EX_NOINPUT when neither exists. */
 int run_file_open_newest(
-    const char *folder, struct run_file **out, struct text *warning, struct error *err);
+	const char *folder, struct run_file **out, struct text *warning, struct error *err);
 
 void run_file_close(struct run_file *file); /* NULL-safe */
 
@@ -47,6 +47,6 @@ struct dataset {
 	double *values;   /* row major, the product of the extents */
 };
 int run_file_dataset(
-    struct run_file *file, const char *path, struct dataset *out, struct error *err);
+	struct run_file *file, const char *path, struct dataset *out, struct error *err);
 
 #endif

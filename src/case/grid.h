@@ -22,13 +22,13 @@ static inline struct grid grid_make(const struct config *config)
 	int cells = config->domain.cells;
 
 	return (struct grid){
-	    .cells = cells,
-	    .faces = cells + 1,
-	    .stride = (size_t)cells + 2,
-	    .x_min = config->domain.x_min,
-	    .dx = (config->domain.x_max - config->domain.x_min) / cells,
-	    .left_wall = config->domain.left == BOUNDARY_WALL,
-	    .right_wall = config->domain.right == BOUNDARY_WALL,
+		.cells = cells,
+		.faces = cells + 1,
+		.stride = (size_t)cells + 2,
+		.x_min = config->domain.x_min,
+		.dx = (config->domain.x_max - config->domain.x_min) / cells,
+		.left_wall = config->domain.left == BOUNDARY_WALL,
+		.right_wall = config->domain.right == BOUNDARY_WALL,
 	};
 }
 

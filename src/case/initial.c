@@ -4,12 +4,12 @@
 static double column(const struct config *config, double x)
 {
 	return config->erodible_bed_thickness +
-	       (x <= config->initial.front ? config->initial.height : 0);
+		   (x <= config->initial.front ? config->initial.height : 0);
 }
 
 /* Thickness at x, m; the index is enum shape_kind. */
 static double (*const shapes[])(const struct config *config, double x) = {
-    [SHAPE_COLUMN] = column,
+	[SHAPE_COLUMN] = column,
 };
 
 void initial_thickness(const struct config *config, const struct grid *grid, double *h)

@@ -16,7 +16,7 @@ struct setting {
 
 /* The value is YAML, so that lists are written as in a file. */
 static int parse_setting(
-    struct setting *setting, const char *key, const char *value, struct error *err)
+	struct setting *setting, const char *key, const char *value, struct error *err)
 {
 	if (!value[strspn(value, " \t")]) { /* no YAML document at all */
 		setting->source.root = (struct node){.kind = NODE_SCALAR, .text = strdup("")};
@@ -30,7 +30,7 @@ static int parse_setting(
 }
 
 static int collect_setting(
-    struct field_reader *reader, struct setting *setting, const char *text, struct error *err)
+	struct field_reader *reader, struct setting *setting, const char *text, struct error *err)
 {
 	const char *equals = strchr(text, '=');
 	int used = snprintf(setting->name, sizeof setting->name, "--set ");
@@ -53,21 +53,21 @@ static int collect_setting(
 }
 
 static int check_layers(
-    const struct config *config, const struct field_reader *reader, struct error *err)
+	const struct config *config, const struct field_reader *reader, struct error *err)
 {
 	int n = config->n_ini_guess;
 
 	if (n >= config->layers)
 		(void)error_set(
-		    err, EX_DATAERR, "n_ini_guess: %d is not below layers (%d)", n, config->layers);
+			err, EX_DATAERR, "n_ini_guess: %d is not below layers (%d)", n, config->layers);
 	else if (n > 0 && config->layers % n != 0)
 		(void)error_set(
-		    err, EX_DATAERR, "n_ini_guess: %d does not divide layers (%d)", n, config->layers);
+			err, EX_DATAERR, "n_ini_guess: %d does not divide layers (%d)", n, config->layers);
 	return err->code ? field_blame(reader, "n_ini_guess", "layers", -1, err) : 0;
 }
 
 static int check_domain(
-    const struct config *config, const struct field_reader *reader, struct error *err)
+	const struct config *config, const struct field_reader *reader, struct error *err)
 {
 	double x_min = config->domain.x_min, x_max = config->domain.x_max;
 	double front = config->initial.front;
@@ -75,32 +75,32 @@ static int check_domain(
 
 	if (x_min >= x_max) {
 		(void)error_set(err, EX_DATAERR, "domain: x_min (%s m) is not below x_max (%s m)",
-		    text_real(x_min, first), text_real(x_max, second));
+			text_real(x_min, first), text_real(x_max, second));
 		return field_blame(reader, "domain.x_min", "domain.x_max", -1, err);
 	}
 	if (front >= x_min && front <= x_max)
 		return 0;
 	(void)error_set(err, EX_DATAERR, "initial.front: %s m is outside the domain, %s m is its %s",
-	    text_real(front, first), text_real(front < x_min ? x_min : x_max, second),
-	    front < x_min ? "x_min" : "x_max");
+		text_real(front, first), text_real(front < x_min ? x_min : x_max, second),
+		front < x_min ? "x_min" : "x_max");
 	return field_blame(
-	    reader, "initial.front", front < x_min ? "domain.x_min" : "domain.x_max", -1, err);
+		reader, "initial.front", front < x_min ? "domain.x_min" : "domain.x_max", -1, err);
 }
 
 static int check_rheology(
-    const struct config *config, const struct field_reader *reader, struct error *err)
+	const struct config *config, const struct field_reader *reader, struct error *err)
 {
 	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
 
 	if (config->rheology.mu_s <= config->rheology.mu_2)
 		return 0;
 	(void)error_set(err, EX_DATAERR, "rheology: mu_s (%s) is above mu_2 (%s)",
-	    text_real(config->rheology.mu_s, first), text_real(config->rheology.mu_2, second));
+		text_real(config->rheology.mu_s, first), text_real(config->rheology.mu_2, second));
 	return field_blame(reader, "rheology.mu_s", "rheology.mu_2", -1, err);
 }
 
 static int check_output(
-    const struct config *config, const struct field_reader *reader, struct error *err)
+	const struct config *config, const struct field_reader *reader, struct error *err)
 {
 	const struct real_list *times = &config->output.profiles_at;
 	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
@@ -108,14 +108,14 @@ static int check_output(
 	for (int i = 0; i < times->count; i++)
 		if (times->values[i] > config->time.end) {
 			(void)error_set(err, EX_DATAERR, "output.profiles_at: %s s is after time.end (%s s)",
-			    text_real(times->values[i], first), text_real(config->time.end, second));
+				text_real(times->values[i], first), text_real(config->time.end, second));
 			return field_blame(reader, "output.profiles_at", "time.end", i, err);
 		}
 	return 0;
 }
 
 static int read_tree(struct config *config, const struct field_source *file,
-    const char *const *settings, int count, struct error *err)
+	const char *const *settings, int count, struct error *err)
 {
 	struct field_reader reader = {.table = &config_table};
 	struct setting *list = NULL;
@@ -133,8 +133,8 @@ static int read_tree(struct config *config, const struct field_source *file,
 		if (collect_setting(&reader, &list[i], settings[i], err) != 0)
 			goto done;
 	if (field_convert(&reader, config, err) == 0 && check_layers(config, &reader, err) == 0 &&
-	    check_domain(config, &reader, err) == 0 && check_rheology(config, &reader, err) == 0 &&
-	    check_output(config, &reader, err) == 0)
+		check_domain(config, &reader, err) == 0 && check_rheology(config, &reader, err) == 0 &&
+		check_output(config, &reader, err) == 0)
 		status = 0;
 done:
 	for (int i = 0; i < count; i++)
@@ -144,7 +144,7 @@ done:
 }
 
 int config_read(struct config *config, const char *path, const char *const *settings, int count,
-    struct error *err)
+	struct error *err)
 {
 	struct field_source file = {.name = path};
 	int status = yaml_load(&file.root, path, err);
@@ -156,7 +156,7 @@ int config_read(struct config *config, const char *path, const char *const *sett
 }
 
 int config_parse(struct config *config, const char *text, size_t length, const char *name,
-    const char *const *settings, int count, struct error *err)
+	const char *const *settings, int count, struct error *err)
 {
 	struct field_source file = {.name = name};
 	int status = yaml_parse(&file.root, text, length, name, err);
@@ -175,8 +175,8 @@ void config_print(const struct config *config, struct text *out)
 void config_print_reference(struct text *out)
 {
 	text_add(out,
-	    "# Every key of a config, with its default. Generated by `talus check --reference`.\n"
-	    "# Quantities carry units, a bare number is SI, an angle must say deg or rad.\n");
+		"# Every key of a config, with its default. Generated by `talus check --reference`.\n"
+		"# Quantities carry units, a bare number is SI, an angle must say deg or rad.\n");
 	field_print_reference(&config_table, out);
 }
 
@@ -191,7 +191,7 @@ int config_hash(const struct config *config, char hash[CONFIG_HASH_SIZE], struct
 		return -1;
 	}
 	(void)snprintf(
-	    hash, CONFIG_HASH_SIZE, "%016llx", (unsigned long long)XXH3_64bits(text.data, text.length));
+		hash, CONFIG_HASH_SIZE, "%016llx", (unsigned long long)XXH3_64bits(text.data, text.length));
 	text_clean(&text);
 	return 0;
 }

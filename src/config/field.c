@@ -79,10 +79,10 @@ int field_unknown(const struct field_table *table, const char *key, struct error
 	(void)text_excerpt(key, shown, sizeof shown);
 	if (nearest)
 		return error_set(
-		    err, EX_DATAERR, "unknown key '%s'; did you mean '%s'?", shown, nearest->name);
+			err, EX_DATAERR, "unknown key '%s'; did you mean '%s'?", shown, nearest->name);
 	list_siblings(table, key, &known);
 	(void)error_set(
-	    err, EX_DATAERR, "unknown key '%s'; known keys are %s", shown, text_string(&known));
+		err, EX_DATAERR, "unknown key '%s'; known keys are %s", shown, text_string(&known));
 	text_clean(&known);
 	return -1;
 }
@@ -101,7 +101,7 @@ int field_set_place(const struct field_source *source, const struct node *node, 
 }
 
 static int collect_mapping(struct field_reader *reader, const struct field_source *source,
-    const char *prefix, const struct node *mapping, struct error *err)
+	const char *prefix, const struct node *mapping, struct error *err)
 {
 	char key[EXCERPT];
 
@@ -115,7 +115,7 @@ static int collect_mapping(struct field_reader *reader, const struct field_sourc
 }
 
 int field_collect_key(struct field_reader *reader, const struct field_source *source,
-    const char *key, const struct node *value, struct error *err)
+	const char *key, const struct node *value, struct error *err)
 {
 	const struct field *field = field_find(reader->table, key);
 	struct field_place *place;
@@ -126,7 +126,7 @@ int field_collect_key(struct field_reader *reader, const struct field_source *so
 	}
 	if (field->kind == FIELD_GROUP && value->kind != NODE_MAPPING) {
 		(void)error_set(
-		    err, EX_DATAERR, "%s: expected a group of keys, not %s", key, node_kind_name(value));
+			err, EX_DATAERR, "%s: expected a group of keys, not %s", key, node_kind_name(value));
 		return field_set_place(source, value, err);
 	}
 	if (field->kind == FIELD_GROUP)
@@ -134,7 +134,7 @@ int field_collect_key(struct field_reader *reader, const struct field_source *so
 	place = &reader->places[field - reader->table->fields];
 	if (place->source == source) {
 		(void)error_set(err, EX_DATAERR, "duplicate key '%s'; it is already on line %d", key,
-		    place->node->key_line);
+			place->node->key_line);
 		return set_place(source, value->key_line, value->key_column, err);
 	}
 	*place = (struct field_place){source, value, ++reader->order};
@@ -142,21 +142,21 @@ int field_collect_key(struct field_reader *reader, const struct field_source *so
 }
 
 int field_collect(struct field_reader *reader, const struct field_source *source,
-    const struct node *mapping, struct error *err)
+	const struct node *mapping, struct error *err)
 {
 	assert(reader->table->count <= FIELDS_MAX);
 	if (!reader->all.source)
 		reader->all = (struct field_place){source, mapping, 0};
 	if (mapping->kind != NODE_MAPPING) {
 		(void)error_set(
-		    err, EX_DATAERR, "expected a group of keys, not %s", node_kind_name(mapping));
+			err, EX_DATAERR, "expected a group of keys, not %s", node_kind_name(mapping));
 		return field_set_place(source, mapping, err);
 	}
 	return collect_mapping(reader, source, "", mapping, err);
 }
 
 int field_blame(const struct field_reader *reader, const char *key, const char *other, int item,
-    struct error *err)
+	struct error *err)
 {
 	const struct field_table *table = reader->table;
 	const struct field_place *place = &reader->places[field_find(table, key) - table->fields];
@@ -164,7 +164,7 @@ int field_blame(const struct field_reader *reader, const char *key, const char *
 
 	if (other) {
 		const struct field_place *second =
-		    &reader->places[field_find(table, other) - table->fields];
+			&reader->places[field_find(table, other) - table->fields];
 
 		if (second->order > place->order)
 			place = second;

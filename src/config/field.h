@@ -65,11 +65,11 @@ struct field_reader {
 /* Note the keys of `mapping`, a node of `source`. A dotted key stands for nested ones. Sources must live
  * as long as the reader. EX_DATAERR: not a mapping, unknown or repeated key, a group that is no mapping. */
 int field_collect(struct field_reader *reader, const struct field_source *source,
-    const struct node *mapping, struct error *err);
+	const struct node *mapping, struct error *err);
 
 /* Note one value of the dotted `key`, as field_collect does. */
 int field_collect_key(struct field_reader *reader, const struct field_source *source,
-    const char *key, const struct node *value, struct error *err);
+	const char *key, const struct node *value, struct error *err);
 
 /* Fill the struct at `target`; keys that were not collected take their defaults. EX_DATAERR with the
  * place: missing required key, wrong kind of node, bad number or unit, out of range, unknown choice. */
@@ -78,7 +78,7 @@ int field_convert(const struct field_reader *reader, void *target, struct error 
 /* Give an error that is set the place of that of two keys which was read later (`other` may be NULL).
  * `item` >= 0 points into a list. Returns -1. */
 int field_blame(const struct field_reader *reader, const char *key, const char *other, int item,
-    struct error *err);
+	struct error *err);
 
 /* The row of a dotted key, NULL if there is none. */
 const struct field *field_find(const struct field_table *table, const char *key);
@@ -91,13 +91,13 @@ void field_print_value(const struct field *field, const void *target, struct tex
 
 /* Every key as nested YAML, without the passive ones where `active_only`. */
 void field_print(
-    const struct field_table *table, const void *target, bool active_only, struct text *out);
+	const struct field_table *table, const void *target, bool active_only, struct text *out);
 
 /* Every key with meaning, unit, range or choices, and default: YAML that reads as the defaults. */
 void field_print_reference(const struct field_table *table, struct text *out);
 
 /* One line per active key that differs: "layers: 10 -> 20". */
 void field_differences(
-    const struct field_table *table, const void *a, const void *b, struct text *out);
+	const struct field_table *table, const void *a, const void *b, struct text *out);
 
 #endif

@@ -6,7 +6,7 @@
 #include "talus/config.h"
 
 static int convert_real(
-    const struct field *field, const char *text, double *value, struct error *err)
+	const struct field *field, const char *text, double *value, struct error *err)
 {
 	char shown[EXCERPT];
 
@@ -15,7 +15,7 @@ static int convert_real(
 }
 
 static int convert_integer(
-    const struct field *field, const char *text, int *value, struct error *err)
+	const struct field *field, const char *text, int *value, struct error *err)
 {
 	char shown[EXCERPT];
 	size_t sign = *text == '-' || *text == '+';
@@ -31,7 +31,7 @@ static int convert_integer(
 }
 
 static int convert_choice(
-    const struct field *field, const char *text, int *value, struct error *err)
+	const struct field *field, const char *text, int *value, struct error *err)
 {
 	struct text hint = {0};
 	char shown[EXCERPT];
@@ -56,20 +56,20 @@ static int convert_choice(
 	if (nearest)
 		text_addf(&hint, "; did you mean '%s'?", nearest);
 	(void)error_set(err, EX_DATAERR, "'%s' is not one of %s",
-	    text_excerpt(text, shown, sizeof shown), text_string(&hint));
+		text_excerpt(text, shown, sizeof shown), text_string(&hint));
 	text_clean(&hint);
 	return -1;
 }
 
 static int convert_list(const struct field *field, const struct field_place *place,
-    struct real_list *list, struct error *err)
+	struct real_list *list, struct error *err)
 {
 	const struct node *node = place->node;
 	const int max = (int)(sizeof list->values / sizeof *list->values);
 
 	if (node->kind != NODE_SEQUENCE)
 		return error_set(
-		    err, EX_DATAERR, "expected a list such as [1, 2], not %s", node_kind_name(node));
+			err, EX_DATAERR, "expected a list such as [1, 2], not %s", node_kind_name(node));
 	if (node->count > (size_t)max)
 		return error_set(err, EX_DATAERR, "a list of %zu values; at most %d fit", node->count, max);
 	for (size_t i = 0; i < node->count; i++) {
@@ -78,11 +78,11 @@ static int convert_list(const struct field *field, const struct field_place *pla
 
 		if (item->kind != NODE_SCALAR)
 			(void)error_set(
-			    err, EX_DATAERR, "expected a single value, not %s", node_kind_name(item));
+				err, EX_DATAERR, "expected a single value, not %s", node_kind_name(item));
 		else if (convert_real(field, item->text, &list->values[i], err) == 0 && i > 0 &&
-		         list->values[i] <= list->values[i - 1])
+				 list->values[i] <= list->values[i - 1])
 			(void)error_set(err, EX_DATAERR, "%s is not above the value before it",
-			    text_excerpt(item->text, shown, sizeof shown));
+				text_excerpt(item->text, shown, sizeof shown));
 		if (err->code)
 			return field_set_place(place->source, item, err);
 	}
@@ -91,7 +91,7 @@ static int convert_list(const struct field *field, const struct field_place *pla
 }
 
 static int convert_value(
-    const struct field *field, const struct field_place *place, void *member, struct error *err)
+	const struct field *field, const struct field_place *place, void *member, struct error *err)
 {
 	const struct node *node = place->node;
 
@@ -133,7 +133,7 @@ int field_convert(const struct field_reader *reader, void *target, struct error 
 			continue;
 		if (!place->source && field->flags & FIELD_REQUIRED) {
 			(void)error_set(err, EX_DATAERR, "missing key '%s'; for example `%s: %s`", field->name,
-			    field->name, field->value);
+				field->name, field->value);
 			return field_set_place(reader->all.source, reader->all.node, err);
 		}
 		if (!place->source) {

@@ -18,7 +18,7 @@ void field_list_choices(const struct field *field, struct text *out);
 
 /* Refuse a value that is outside the range of a row; `shown` is its text. */
 int field_check_range(
-    const struct field *field, const char *shown, double value, struct error *err);
+	const struct field *field, const char *shown, double value, struct error *err);
 
 /* "above 0 m and at most 1 m" */
 void field_describe_range(const struct field *field, struct text *out);

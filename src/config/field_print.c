@@ -49,7 +49,7 @@ static void print_key(const struct field *field, struct text *out)
 }
 
 void field_print(
-    const struct field_table *table, const void *target, bool active_only, struct text *out)
+	const struct field_table *table, const void *target, bool active_only, struct text *out)
 {
 	for (size_t i = 0; i < table->count; i++) {
 		const struct field *field = &table->fields[i];
@@ -95,12 +95,12 @@ void field_print_reference(const struct field_table *table, struct text *out)
 		}
 		print_key(field, out);
 		text_addf(out, "%s%s\n", field->kind == FIELD_GROUP ? "" : " ",
-		    field->kind == FIELD_GROUP ? "" : field->value);
+			field->kind == FIELD_GROUP ? "" : field->value);
 	}
 }
 
 void field_differences(
-    const struct field_table *table, const void *a, const void *b, struct text *out)
+	const struct field_table *table, const void *a, const void *b, struct text *out)
 {
 	for (size_t i = 0; i < table->count; i++) {
 		const struct field *field = &table->fields[i];

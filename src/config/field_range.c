@@ -59,11 +59,11 @@ int field_check_range(const struct field *field, const char *shown, double value
 		return 0;
 	parse_range(field, &low, &high);
 	if ((!low.bounded || value > low.value || (value == low.value && !low.open)) &&
-	    (!high.bounded || value < high.value || (value == high.value && !high.open)))
+		(!high.bounded || value < high.value || (value == high.value && !high.open)))
 		return 0;
 	field_describe_range(field, &range);
 	(void)error_set(
-	    err, EX_DATAERR, "%s is out of range; it must be %s", shown, text_string(&range));
+		err, EX_DATAERR, "%s is out of range; it must be %s", shown, text_string(&range));
 	text_clean(&range);
 	return -1;
 }

@@ -24,9 +24,9 @@ const struct node *node_find(const struct node *mapping, const char *key)
 const char *node_kind_name(const struct node *node)
 {
 	static const char *const names[] = {
-	    [NODE_SCALAR] = "a single value",
-	    [NODE_SEQUENCE] = "a list",
-	    [NODE_MAPPING] = "a group of keys",
+		[NODE_SCALAR] = "a single value",
+		[NODE_SEQUENCE] = "a list",
+		[NODE_MAPPING] = "a group of keys",
 	};
 
 	return names[node->kind];

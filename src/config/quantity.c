@@ -12,39 +12,39 @@ static const struct unit {
 	int exponent;
 	long double factor;
 } units[] = {
-    {"", "1", 0, 1},
-    {"m", "m", 0, 1},
-    {"km", "m", 3, 1},
-    {"cm", "m", -2, 1},
-    {"mm", "m", -3, 1},
-    {"um", "m", -6, 1},
-    {"s", "s", 0, 1},
-    {"ms", "s", -3, 1},
-    {"us", "s", -6, 1},
-    {"min", "s", 0, 60},
-    {"h", "s", 0, 3600},
-    {"rad", "rad", 0, 1},
-    {"deg", "rad", 0, M_PIl / 180},
-    {"m/s", "m/s", 0, 1},
-    {"cm/s", "m/s", -2, 1},
-    {"mm/s", "m/s", -3, 1},
-    {"1/s", "1/s", 0, 1},
-    {"kg/m3", "kg/m3", 0, 1},
-    {"g/cm3", "kg/m3", 3, 1},
-    {"m2/s2", "m2/s2", 0, 1},
+	{"", "1", 0, 1},
+	{"m", "m", 0, 1},
+	{"km", "m", 3, 1},
+	{"cm", "m", -2, 1},
+	{"mm", "m", -3, 1},
+	{"um", "m", -6, 1},
+	{"s", "s", 0, 1},
+	{"ms", "s", -3, 1},
+	{"us", "s", -6, 1},
+	{"min", "s", 0, 60},
+	{"h", "s", 0, 3600},
+	{"rad", "rad", 0, 1},
+	{"deg", "rad", 0, M_PIl / 180},
+	{"m/s", "m/s", 0, 1},
+	{"cm/s", "m/s", -2, 1},
+	{"mm/s", "m/s", -3, 1},
+	{"1/s", "1/s", 0, 1},
+	{"kg/m3", "kg/m3", 0, 1},
+	{"g/cm3", "kg/m3", 3, 1},
+	{"m2/s2", "m2/s2", 0, 1},
 };
 
 static const struct dimension {
 	const char *si, *name;
 } dimensions[] = {
-    {"1", "a plain number"},
-    {"m", "a length"},
-    {"s", "a time"},
-    {"rad", "an angle"},
-    {"m/s", "a speed"},
-    {"1/s", "a rate"},
-    {"kg/m3", "a density"},
-    {"m2/s2", "a pressure over density"},
+	{"1", "a plain number"},
+	{"m", "a length"},
+	{"s", "a time"},
+	{"rad", "an angle"},
+	{"m/s", "a speed"},
+	{"1/s", "a rate"},
+	{"kg/m3", "a density"},
+	{"m2/s2", "a pressure over density"},
 };
 
 enum { UNITS = sizeof units / sizeof *units, QUANTITY_SIZE = 128 };
@@ -100,10 +100,10 @@ static int refuse_unit(const char *text, const char *name, const char *unit, str
 	}
 	if (other)
 		(void)error_set(
-		    err, EX_DATAERR, "%s is %s; %s", text, dimension_name(other->si), text_string(&right));
+			err, EX_DATAERR, "%s is %s; %s", text, dimension_name(other->si), text_string(&right));
 	else
 		(void)error_set(
-		    err, EX_DATAERR, "%s: unknown unit '%s'; %s", text, name, text_string(&right));
+			err, EX_DATAERR, "%s: unknown unit '%s'; %s", text, name, text_string(&right));
 	text_clean(&right);
 	return -1;
 }
@@ -136,7 +136,7 @@ static size_t number_length(const char *text, size_t *mantissa)
 /* The number scaled by the unit. The unit's power of ten goes into the number's own exponent, so that
  * strtod rounds once and 1.82 mm is the same double as 0.00182. */
 static int scale(
-    const char *text, size_t mantissa, const struct unit *unit, double *value, struct error *err)
+	const char *text, size_t mantissa, const struct unit *unit, double *value, struct error *err)
 {
 	char number[QUANTITY_SIZE + 32];
 	long exponent = 0;
@@ -146,7 +146,7 @@ static int scale(
 	if (labs(exponent) > 10000)
 		exponent = exponent > 0 ? 10000 : -10000;
 	(void)snprintf(
-	    number, sizeof number, "%.*se%ld", (int)mantissa, text, exponent + unit->exponent);
+		number, sizeof number, "%.*se%ld", (int)mantissa, text, exponent + unit->exponent);
 	*value = strtod(number, NULL);
 	if (unit->factor != 1)
 		*value = (double)(*value * unit->factor);
@@ -208,7 +208,7 @@ int quantity_read(const char *given, const char *unit, double *value, struct err
 	name = text + length + strspn(text + length, " ");
 	if (!*name && !strcmp(unit, "rad"))
 		return error_set(err, EX_DATAERR,
-		    "%s has no unit; an angle must say deg or rad, as in %s deg", text, text);
+			"%s has no unit; an angle must say deg or rad, as in %s deg", text, text);
 	row = unit_find(*name || !strcmp(unit, "1") ? name : unit);
 	if (!row || strcmp(row->si, unit) != 0)
 		return refuse_unit(text, name, unit, err);

@@ -20,7 +20,7 @@ struct loader {
 static int refuse(struct loader *loader, yaml_mark_t mark, const char *what)
 {
 	return error_at(loader->err, EX_DATAERR, loader->name, (int)mark.line + 1, (int)mark.column + 1,
-	    "%s", what);
+		"%s", what);
 }
 
 /* Bytes of the UTF-8 character at `s`, 0 if it is none (too long, a surrogate, beyond U+10FFFF). */
@@ -34,7 +34,7 @@ static size_t character_length(const unsigned char *s, size_t left)
 		if ((s[i] & 0xC0) != 0x80)
 			return 0;
 	if ((s[0] == 0xE0 && s[1] < 0xA0) || (s[0] == 0xED && s[1] > 0x9F) ||
-	    (s[0] == 0xF0 && s[1] < 0x90) || (s[0] == 0xF4 && s[1] > 0x8F))
+		(s[0] == 0xF0 && s[1] < 0x90) || (s[0] == 0xF4 && s[1] > 0x8F))
 		return 0;
 	return count;
 }
@@ -49,10 +49,10 @@ static int check_characters(const char *text, size_t length, const char *name, s
 		count = character_length(s + i, length - i);
 		if (!count)
 			return error_at(
-			    err, EX_DATAERR, name, line, column, "byte 0x%02X is not valid UTF-8 text", s[i]);
+				err, EX_DATAERR, name, line, column, "byte 0x%02X is not valid UTF-8 text", s[i]);
 		if ((s[i] < ' ' && !strchr("\t\n\r", s[i])) || s[i] == 0 || s[i] == 0x7F)
 			return error_at(err, EX_DATAERR, name, line, column,
-			    "control character 0x%02X does not belong in a text file", s[i]);
+				"control character 0x%02X does not belong in a text file", s[i]);
 		column++;
 		if (s[i] == '\n' || (s[i] == '\r' && (i + 1 == length || s[i + 1] != '\n'))) {
 			line++;
@@ -70,8 +70,8 @@ static int parser_failure(struct loader *loader)
 	if (parser->error == YAML_MEMORY_ERROR)
 		return error_memory(loader->err, 0);
 	(void)snprintf(message, sizeof message, "not valid YAML: %s%s%s",
-	    parser->context ? parser->context : "", parser->context ? ", " : "",
-	    parser->problem ? parser->problem : "unknown fault");
+		parser->context ? parser->context : "", parser->context ? ", " : "",
+		parser->problem ? parser->problem : "unknown fault");
 	return refuse(loader, parser->problem_mark, message);
 }
 
@@ -148,7 +148,7 @@ static int check_duplicates(struct loader *loader, const struct node *mapping)
 	qsort(sorted, mapping->count, sizeof *sorted, compare_keys);
 	for (size_t i = 1; i < mapping->count; i++)
 		if (!strcmp(sorted[i - 1].node->key, sorted[i].node->key) &&
-		    (!again || sorted[i].node < again)) {
+			(!again || sorted[i].node < again)) {
 			first = sorted[i - 1].node;
 			again = sorted[i].node;
 		}
@@ -156,12 +156,12 @@ static int check_duplicates(struct loader *loader, const struct node *mapping)
 	if (!again)
 		return 0;
 	return error_at(loader->err, EX_DATAERR, loader->name, again->key_line, again->key_column,
-	    "duplicate key '%s'; it is already on line %d",
-	    text_excerpt(again->key, shown, sizeof shown), first->key_line);
+		"duplicate key '%s'; it is already on line %d",
+		text_excerpt(again->key, shown, sizeof shown), first->key_line);
 }
 
 static int read_node(
-    struct loader *loader, const yaml_event_t *event, struct node *node, int depth);
+	struct loader *loader, const yaml_event_t *event, struct node *node, int depth);
 
 /* `event` is the key; the value follows. */
 static int read_pair(struct loader *loader, const yaml_event_t *event, struct node *node, int depth)
@@ -255,7 +255,7 @@ static int read_document(struct loader *loader, struct node *root)
 		if (type == YAML_DOCUMENT_START_EVENT && seen) {
 			status = refuse(loader, start, "a second document; one file holds one");
 		} else if (type != YAML_STREAM_START_EVENT && type != YAML_STREAM_END_EVENT &&
-		           type != YAML_DOCUMENT_START_EVENT && type != YAML_DOCUMENT_END_EVENT) {
+				   type != YAML_DOCUMENT_START_EVENT && type != YAML_DOCUMENT_END_EVENT) {
 			seen = true;
 			status = read_node(loader, &event, root, 0);
 		}
@@ -267,7 +267,7 @@ static int read_document(struct loader *loader, struct node *root)
 }
 
 int yaml_parse(
-    struct node *root, const char *text, size_t length, const char *name, struct error *err)
+	struct node *root, const char *text, size_t length, const char *name, struct error *err)
 {
 	struct loader loader = {.name = name, .err = err};
 	int status;

@@ -26,7 +26,7 @@ struct node {
  * anchors, aliases, tags, keys that are not scalars, duplicate keys, nesting deeper than 16, more
  * than 1 MiB of text or 100,000 nodes. Clean with node_clean in every case. */
 int yaml_parse(
-    struct node *root, const char *text, size_t length, const char *name, struct error *err);
+	struct node *root, const char *text, size_t length, const char *name, struct error *err);
 
 /* The same from a file; a file that cannot be read is EX_DATAERR with the reason. */
 int yaml_load(struct node *root, const char *path, struct error *err);

@@ -107,7 +107,7 @@ static inline double dry_mu(const struct dry_parameters *par, double shear, doub
 	double inertia = par->inertia * shear;
 
 	return par->mu_s +
-	       (par->mu_2 - par->mu_s) * inertia / (par->i_0 * __builtin_sqrt(p) + inertia + 1e-300);
+		   (par->mu_2 - par->mu_s) * inertia / (par->i_0 * __builtin_sqrt(p) + inertia + 1e-300);
 }
 
 /* Velocities from discharges, zero where the cell is dry, with ghosts. */

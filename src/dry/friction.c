@@ -18,7 +18,7 @@ static void friction_thickness(const struct model_state *s, double *hs)
 	for (int i = 1; i <= s->grid.cells; i++) {
 		/* the plane is mirrored at a wall */
 		double half =
-		    (i == 1 && s->grid.left_wall) || (i == s->grid.cells && s->grid.right_wall) ? 0.5 : 1;
+			(i == 1 && s->grid.left_wall) || (i == s->grid.cells && s->grid.right_wall) ? 0.5 : 1;
 		double jump = h[i + 1] + b[i + 1] - h[i - 1] - b[i - 1] + half * plane;
 		double smooth = 0.5 * h[i] + 0.25 * (h[i - 1] + h[i + 1]);
 		bool below = fabs(jump) <= limit;
@@ -46,12 +46,12 @@ static void interface_coefficient(const struct model_state *s, int a, const doub
 			double slip = fabs(u[i]);
 
 			k[i] = dry_mu(par, slip * n / h, p) * p /
-			       sqrt(slip * slip + par->delta_velocity * par->delta_velocity);
+				   sqrt(slip * slip + par->delta_velocity * par->delta_velocity);
 		} else {
 			double shear = fabs(u[i] - down[i]) * n / h;
 
 			k[i] = dry_mu(par, shear, p) * p * n /
-			       (2 * h * sqrt(0.25 * shear * shear + par->delta_strain * par->delta_strain));
+				   (2 * h * sqrt(0.25 * shear * shear + par->delta_strain * par->delta_strain));
 		}
 	}
 }

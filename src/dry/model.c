@@ -10,29 +10,29 @@
 #define GRAVITY 9.81 /* m/s2 */
 
 static const struct pressure_operator *const operators[] = {
-    [OPERATOR_SYMMETRIC] = &operator_symmetric,
-    [OPERATOR_POINTWISE] = &operator_pointwise,
+	[OPERATOR_SYMMETRIC] = &operator_symmetric,
+	[OPERATOR_POINTWISE] = &operator_pointwise,
 };
 
 static struct dry_parameters parameters(const struct config *config)
 {
 	return (struct dry_parameters){
-	    .gc = GRAVITY * cos(config->slope),
-	    .tan_slope = tan(config->slope),
-	    .rho = config->grains.solid_fraction * config->grains.density,
-	    .mu_s = config->rheology.mu_s,
-	    .mu_2 = config->rheology.mu_2,
-	    .i_0 = config->rheology.i_0,
-	    .inertia = config->grains.diameter / sqrt(config->grains.solid_fraction),
-	    .delta_strain = config->regularisation.strain_rate,
-	    .delta_velocity = config->regularisation.velocity,
-	    .bed = config->erodible_bed_thickness,
-	    .cfl = config->time.cfl,
-	    .front_threshold = config->output.front_threshold,
-	    .static_speed = config->output.static_speed,
-	    .fastest = config->time.wave_speed == WAVE_SPEED_FASTEST,
-	    .static_balance = config->scheme.friction_reconstruction == RECONSTRUCTION_STATIC,
-	    .non_hydrostatic = config->pressure == PRESSURE_NON_HYDROSTATIC,
+		.gc = GRAVITY * cos(config->slope),
+		.tan_slope = tan(config->slope),
+		.rho = config->grains.solid_fraction * config->grains.density,
+		.mu_s = config->rheology.mu_s,
+		.mu_2 = config->rheology.mu_2,
+		.i_0 = config->rheology.i_0,
+		.inertia = config->grains.diameter / sqrt(config->grains.solid_fraction),
+		.delta_strain = config->regularisation.strain_rate,
+		.delta_velocity = config->regularisation.velocity,
+		.bed = config->erodible_bed_thickness,
+		.cfl = config->time.cfl,
+		.front_threshold = config->output.front_threshold,
+		.static_speed = config->output.static_speed,
+		.fastest = config->time.wave_speed == WAVE_SPEED_FASTEST,
+		.static_balance = config->scheme.friction_reconstruction == RECONSTRUCTION_STATIC,
+		.non_hydrostatic = config->pressure == PRESSURE_NON_HYDROSTATIC,
 	};
 }
 
@@ -124,7 +124,7 @@ static int create(const struct config *config, struct model_state **out, struct 
 	s->operator_ = operators[config->pressure_solver.operator_];
 	s->solver = pressure_solver_find(config->pressure_solver.method);
 	s->rule = (struct stopping_rule){config->pressure_solver.norm,
-	    config->pressure_solver.tolerance, config->pressure_solver.max_iterations};
+		config->pressure_solver.tolerance, config->pressure_solver.max_iterations};
 	s->start_previous = config->pressure_solver.start == START_PREVIOUS;
 	s->coarse.layers = s->par.non_hydrostatic ? config->n_ini_guess : 0;
 	count = layout(s, NULL);
@@ -136,7 +136,7 @@ static int create(const struct config *config, struct model_state **out, struct 
 	}
 	(void)layout(s, s->memory);
 	if ((s->par.non_hydrostatic && projection_init(s, &s->full, err)) ||
-	    (s->coarse.layers && projection_init(s, &s->coarse, err))) {
+		(s->coarse.layers && projection_init(s, &s->coarse, err))) {
 		destroy(s);
 		return -1;
 	}
@@ -209,13 +209,13 @@ static int check(const struct model_state *s, struct error *err)
 
 		if (s->h[i] < 0)
 			return error_set(err, EX_FAILED, "negative thickness %g m at x = %g m", s->h[i],
-			    grid_centre(&s->grid, i));
+				grid_centre(&s->grid, i));
 		for (int a = 0; a < s->layers; a++)
 			sum += fabs(s->u[(size_t)a * s->grid.stride + (size_t)i]) +
-			       fabs(s->w[(size_t)a * s->grid.stride + (size_t)i]);
+				   fabs(s->w[(size_t)a * s->grid.stride + (size_t)i]);
 		if (!isfinite(sum))
 			return error_set(err, EX_FAILED, "the state is not finite (thickness %g m) at x = %g m",
-			    s->h[i], grid_centre(&s->grid, i));
+				s->h[i], grid_centre(&s->grid, i));
 	}
 	return 0;
 }
@@ -260,19 +260,19 @@ static size_t arrays(struct model_state *s, struct array *list)
 }
 
 const struct model dry_model = {
-    .name = "dry",
-    .numerics_version = 1,
-    .series = dry_series,
-    .series_count = DRY_SERIES_COUNT,
-    .profiles = dry_profiles,
-    .profile_count = DRY_PROFILE_COUNT,
-    .create = create,
-    .time_step = time_step,
-    .step = step,
-    .observe = dry_observe,
-    .profile = dry_profile,
-    .axes = axes,
-    .arrays = arrays,
+	.name = "dry",
+	.numerics_version = 1,
+	.series = dry_series,
+	.series_count = DRY_SERIES_COUNT,
+	.profiles = dry_profiles,
+	.profile_count = DRY_PROFILE_COUNT,
+	.create = create,
+	.time_step = time_step,
+	.step = step,
+	.observe = dry_observe,
+	.profile = dry_profile,
+	.axes = axes,
+	.arrays = arrays,
 	.restored = dry_velocities,
-    .free = destroy,
+	.free = destroy,
 };

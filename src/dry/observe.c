@@ -20,77 +20,77 @@ enum {
 };
 
 const struct series dry_series[DRY_SERIES_COUNT] = {
-    [FRONT_POSITION] = {.name = "front_position",
-        .units = "m",
-        .long_name = "rightmost crossing of the front threshold",
-        .slope_of = -1},
-    [FRONT_VELOCITY] = {.name = "front_velocity",
-        .units = "m s-1",
-        .long_name = "slope of the front position over the trailing 0.02 s",
-        .slope_of = FRONT_POSITION,
-        .window = 0.02},
-    [MAX_SPEED] = {.name = "max_speed",
-        .units = "m s-1",
-        .long_name = "largest layer velocity along the slope",
-        .slope_of = -1},
-    [MAX_THICKNESS] = {.name = "max_thickness",
-        .units = "m",
-        .long_name = "largest thickness",
-        .slope_of = -1},
-    [MASS] = {.name = "mass",
-        .units = "kg m-1",
-        .long_name = "mass in the domain per unit width",
-        .slope_of = -1},
-    [MASS_OUTFLOW] = {.name = "mass_outflow",
-        .units = "kg m-1",
-        .long_name = "mass that has left through the ends per unit width",
-        .slope_of = -1},
-    [ENERGY] = {.name = "energy",
-        .units = "J m-1",
-        .long_name = "kinetic and potential energy per unit width (P1 Theorem 1)",
-        .slope_of = -1},
-    [PRESSURE_ITERATIONS] = {.name = "pressure_iterations",
-        .units = "1",
-        .long_name = "iterations of the pressure solver in the step",
-        .whole = true,
-        .slope_of = -1},
-    [COARSE_ITERATIONS] = {.name = "coarse_iterations",
-        .units = "1",
-        .long_name = "iterations of the coarse system behind the first guess",
-        .whole = true,
-        .slope_of = -1},
-    [PRESSURE_RESIDUAL] = {.name = "pressure_residual",
-        .units = "1",
-        .long_name = "true relative residual of the pressure system",
-        .slope_of = -1},
-    [CPU_TRANSPORT] = {.name = "cpu_transport",
-        .units = "s",
-        .long_name = "CPU time of step 1, transport",
-        .slope_of = -1,
-        .per_step_sum = true},
-    [CPU_FRICTION] = {.name = "cpu_friction",
-        .units = "s",
-        .long_name = "CPU time of step 2, friction",
-        .slope_of = -1,
-        .per_step_sum = true},
-    [CPU_PRESSURE] = {.name = "cpu_pressure",
-        .units = "s",
-        .long_name = "CPU time of step 3, non-hydrostatic pressure",
-        .slope_of = -1,
-        .per_step_sum = true},
+	[FRONT_POSITION] = {.name = "front_position",
+		.units = "m",
+		.long_name = "rightmost crossing of the front threshold",
+		.slope_of = -1},
+	[FRONT_VELOCITY] = {.name = "front_velocity",
+		.units = "m s-1",
+		.long_name = "slope of the front position over the trailing 0.02 s",
+		.slope_of = FRONT_POSITION,
+		.window = 0.02},
+	[MAX_SPEED] = {.name = "max_speed",
+		.units = "m s-1",
+		.long_name = "largest layer velocity along the slope",
+		.slope_of = -1},
+	[MAX_THICKNESS] = {.name = "max_thickness",
+		.units = "m",
+		.long_name = "largest thickness",
+		.slope_of = -1},
+	[MASS] = {.name = "mass",
+		.units = "kg m-1",
+		.long_name = "mass in the domain per unit width",
+		.slope_of = -1},
+	[MASS_OUTFLOW] = {.name = "mass_outflow",
+		.units = "kg m-1",
+		.long_name = "mass that has left through the ends per unit width",
+		.slope_of = -1},
+	[ENERGY] = {.name = "energy",
+		.units = "J m-1",
+		.long_name = "kinetic and potential energy per unit width (P1 Theorem 1)",
+		.slope_of = -1},
+	[PRESSURE_ITERATIONS] = {.name = "pressure_iterations",
+		.units = "1",
+		.long_name = "iterations of the pressure solver in the step",
+		.whole = true,
+		.slope_of = -1},
+	[COARSE_ITERATIONS] = {.name = "coarse_iterations",
+		.units = "1",
+		.long_name = "iterations of the coarse system behind the first guess",
+		.whole = true,
+		.slope_of = -1},
+	[PRESSURE_RESIDUAL] = {.name = "pressure_residual",
+		.units = "1",
+		.long_name = "true relative residual of the pressure system",
+		.slope_of = -1},
+	[CPU_TRANSPORT] = {.name = "cpu_transport",
+		.units = "s",
+		.long_name = "CPU time of step 1, transport",
+		.slope_of = -1,
+		.per_step_sum = true},
+	[CPU_FRICTION] = {.name = "cpu_friction",
+		.units = "s",
+		.long_name = "CPU time of step 2, friction",
+		.slope_of = -1,
+		.per_step_sum = true},
+	[CPU_PRESSURE] = {.name = "cpu_pressure",
+		.units = "s",
+		.long_name = "CPU time of step 3, non-hydrostatic pressure",
+		.slope_of = -1,
+		.per_step_sum = true},
 };
 
 enum { BED, THICKNESS, STATIC_HEIGHT, VELOCITY, NORMAL_VELOCITY, PRESSURE };
 
 const struct profile dry_profiles[DRY_PROFILE_COUNT] = {
-    [BED] = {"b", "m", "bed above the reference plane", PROFILE_X, true},
-    [THICKNESS] = {"h", "m", "thickness normal to the reference plane", PROFILE_X, false},
-    [STATIC_HEIGHT] = {"static_height", "m", "height of the flow/no-flow interface above the bed",
-        PROFILE_X, false},
-    [VELOCITY] = {"u", "m s-1", "layer velocity along the slope", PROFILE_LAYER_X, false},
-    [NORMAL_VELOCITY] = {"w", "m s-1", "layer velocity normal to the slope", PROFILE_LAYER_X,
-        false},
-    [PRESSURE] = {"p", "Pa", "total pressure at the layer interfaces", PROFILE_INTERFACE_X, false},
+	[BED] = {"b", "m", "bed above the reference plane", PROFILE_X, true},
+	[THICKNESS] = {"h", "m", "thickness normal to the reference plane", PROFILE_X, false},
+	[STATIC_HEIGHT] = {"static_height", "m", "height of the flow/no-flow interface above the bed",
+		PROFILE_X, false},
+	[VELOCITY] = {"u", "m s-1", "layer velocity along the slope", PROFILE_LAYER_X, false},
+	[NORMAL_VELOCITY] = {"w", "m s-1", "layer velocity normal to the slope", PROFILE_LAYER_X,
+		false},
+	[PRESSURE] = {"p", "Pa", "total pressure at the layer interfaces", PROFILE_INTERFACE_X, false},
 };
 
 /* Rightmost crossing of h - h_i = threshold, linear between the cell centres; NaN: none. */
@@ -123,7 +123,7 @@ static double energy(const struct model_state *s)
 			kinetic += s->u[k] * s->u[k] + s->w[k] * s->w[k];
 		}
 		sum +=
-		    s->h[i] * (0.5 * kinetic / s->layers + s->par.gc * (plane + s->b[i] + 0.5 * s->h[i]));
+			s->h[i] * (0.5 * kinetic / s->layers + s->par.gc * (plane + s->b[i] + 0.5 * s->h[i]));
 	}
 	return s->par.rho * s->grid.dx * sum;
 }
@@ -185,7 +185,7 @@ static void diagnose_w(const struct model_state *s, double *values)
 			double middle = (b[i + 1] - b[i - 1] + (a + 0.5) / n * (h[i + 1] - h[i - 1])) / width;
 
 			values[(size_t)a * (size_t)cells + (size_t)(i - 1)] =
-			    u[i] * middle - below - 0.5 * flux;
+				u[i] * middle - below - 0.5 * flux;
 			below += flux;
 		}
 	}
@@ -201,7 +201,7 @@ static void total_pressure(const struct model_state *s, double *values)
 			double fluctuation = a < s->layers ? 0.5 * (q[-1] + q[0]) : 0;
 
 			values[(size_t)a * cells + i - 1] =
-			    s->par.rho * (s->par.gc * s->h[i] * (s->layers - a) / s->layers + fluctuation);
+				s->par.rho * (s->par.gc * s->h[i] * (s->layers - a) / s->layers + fluctuation);
 		}
 }
 

@@ -21,9 +21,9 @@ struct stencil {
 static struct stencil stencil_make(double c2, double c1, double c0, double n2, double dx)
 {
 	return (struct stencil){
-	    c2 / (dx * dx) - 0.5 * c1 / dx + 0.25 * n2,
-	    -2 * c2 / (dx * dx) + c0 + 0.5 * n2,
-	    c2 / (dx * dx) + 0.5 * c1 / dx + 0.25 * n2,
+		c2 / (dx * dx) - 0.5 * c1 / dx + 0.25 * n2,
+		-2 * c2 / (dx * dx) + c0 + 0.5 * n2,
+		c2 / (dx * dx) + 0.5 * c1 / dx + 0.25 * n2,
 	};
 }
 
@@ -58,7 +58,7 @@ static void face_slopes(const struct pressure_input *in, double *dh, double *db)
 /* xi_a = N d_x Z_a, layer a = 0.. from the bottom, at every face, and its limited slope at the inner
  * ones. */
 static void layer_rows(const struct pressure_input *in, int a, const double *dh, const double *db,
-    double *xi, double *dxi)
+	double *xi, double *dxi)
 {
 	double n = in->layers, scale = 1 / in->grid->dx;
 
@@ -99,13 +99,13 @@ static double constraint(const struct pressure_input *in, int a, int f, double x
 	double ui = h[0] * u[0], uj = h[1] * u[1];
 
 	return w_sign * (in->layers * (h[0] * w[0] + h[1] * w[1]) - xi * (ui + uj)) +
-	       0.5 * (h[0] + h[1]) * (uj - ui) / in->grid->dx;
+		   0.5 * (h[0] + h[1]) * (uj - ui) / in->grid->dx;
 }
 
 /* Rows of the inner faces of layer a: layer a on its lower and upper interface, and layer a - 1 (its
  * rows are `y`, `dy`) on its own. */
 static void inner_rows(const struct pressure_input *in, struct pressure_system *system, int a,
-    const double *dh, const double *x, const double *dxi, const double *y, const double *dy)
+	const double *dh, const double *x, const double *dxi, const double *y, const double *dy)
 {
 	double dx = in->grid->dx, n2 = (double)in->layers * in->layers;
 
@@ -119,22 +119,22 @@ static void inner_rows(const struct pressure_input *in, struct pressure_system *
 			double d0 = 2 * y[f] * y[f];
 			struct stencil upper = stencil_make(c2, c1, d0 + h * dy[f], 2 * n2, dx);
 			struct stencil below =
-			    stencil_make(c2, c1 - 2 * h * y[f], -d0 - h * dy[f], -2 * n2, dx);
+				stencil_make(c2, c1 - 2 * h * y[f], -d0 - h * dy[f], -2 * n2, dx);
 
 			own.lower += upper.lower;
 			own.diagonal += upper.diagonal;
 			own.upper += upper.upper;
 			rhs += constraint(in, a - 1, f, y[f], -1);
 			put(&below, &system->below_lower[k], &system->below_diagonal[k],
-			    &system->below_upper[k]);
+				&system->below_upper[k]);
 		}
 		put(&own, &system->lower[k], &system->diagonal[k], &system->upper[k]);
 		if (a + 1 < in->layers) {
 			struct stencil above =
-			    stencil_make(c2, c1 + 2 * h * x[f], -c0 + h * dxi[f], -2 * n2, dx);
+				stencil_make(c2, c1 + 2 * h * x[f], -c0 + h * dxi[f], -2 * n2, dx);
 
 			put(&above, &system->above_lower[k], &system->above_diagonal[k],
-			    &system->above_upper[k]);
+				&system->above_upper[k]);
 		}
 		system->rhs[k] = -rhs / in->dt;
 	}

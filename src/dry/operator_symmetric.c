@@ -22,8 +22,8 @@ static struct bands bands_of(const struct pressure_system *system, int a)
 	size_t row = pressure_system_row(system, a);
 
 	return (struct bands){system->diagonal + row, system->lower + row, system->upper + row,
-	    system->rhs + row, system->above_lower + row, system->above_diagonal + row,
-	    system->above_upper + row};
+		system->rhs + row, system->above_lower + row, system->above_diagonal + row,
+		system->above_upper + row};
 }
 
 static void add_layer(const struct pressure_input *in, struct pressure_system *system, int a)
@@ -89,7 +89,7 @@ static void assemble(const struct pressure_input *in, struct pressure_system *sy
 {
 	size_t bytes = (size_t)system->layers * (size_t)system->faces * sizeof(double);
 	double *const filled[] = {system->diagonal, system->lower, system->upper, system->rhs,
-	    system->above_lower, system->above_diagonal, system->above_upper};
+		system->above_lower, system->above_diagonal, system->above_upper};
 
 	for (size_t i = 0; i < sizeof filled / sizeof *filled; i++)
 		memset(filled[i], 0, bytes);

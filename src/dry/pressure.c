@@ -48,15 +48,15 @@ static void assemble(struct model_state *s, struct projection *problem, double d
 {
 	const struct grid *grid = &s->grid;
 	struct pressure_input input = {
-	    .grid = grid,
-	    .layers = problem->layers,
-	    .dt = dt,
-	    .h = s->h,
-	    .b = s->b,
-	    .u = problem->u ? problem->u : s->u,
-	    .w = problem->w ? problem->w : s->w,
-	    .dry = s->dry,
-	    .rows = s->face,
+		.grid = grid,
+		.layers = problem->layers,
+		.dt = dt,
+		.h = s->h,
+		.b = s->b,
+		.u = problem->u ? problem->u : s->u,
+		.w = problem->w ? problem->w : s->w,
+		.dry = s->dry,
+		.rows = s->face,
 	};
 
 	s->operator_->assemble(&input, &problem->system);
@@ -66,7 +66,7 @@ static void assemble(struct model_state *s, struct projection *problem, double d
 
 /* Layer averages for the coarse system (P1 4.1). */
 static void average_layers(
-    const double *fine, int merged, double *coarse, int layers, size_t stride)
+	const double *fine, int merged, double *coarse, int layers, size_t stride)
 {
 	for (int c = 0; c < layers; c++)
 		for (size_t i = 0; i < stride; i++) {
@@ -110,7 +110,7 @@ static void start(const struct model_state *s, struct pressure_system *system)
 }
 
 static int solve(
-    struct model_state *s, struct projection *problem, int *iterations, struct error *err)
+	struct model_state *s, struct projection *problem, int *iterations, struct error *err)
 {
 	int done = s->solver->solve(&problem->system, &s->rule, problem->scratch);
 
@@ -118,8 +118,8 @@ static int solve(
 	if (done >= 0)
 		return 0;
 	return error_set(err, EX_FAILED,
-	    "the pressure solver (%s, %d layers) did not converge: %d iterations, tolerance %g m2/s2",
-	    s->solver->name, problem->layers, -done, s->rule.tolerance);
+		"the pressure solver (%s, %d layers) did not converge: %d iterations, tolerance %g m2/s2",
+		s->solver->name, problem->layers, -done, s->rule.tolerance);
 }
 
 int dry_pressure(struct model_state *s, double dt, struct error *err)

@@ -74,12 +74,12 @@ static void prepare_faces(struct model_state *s, const double *ubar, const doubl
 		r.alpha1[f] = width > 0 ? (fabs(sr) - fabs(sl)) / width : 0;
 		/* the plane stands outside the reconstruction, or it would cut gravity where h < tan dx */
 		r.source[f] = gc * hbar *
-		              (positive(h[j] - positive(-db)) - positive(h[i] - positive(db)) + (dz - db));
+					  (positive(h[j] - positive(-db)) - positive(h[i] - positive(db)) + (dz - db));
 		r.left[f] = positive(h[i] - positive(held));
 		r.right[f] = positive(h[j] - positive(-held));
 		r.rest_source[f] = gc * hbar * (r.right[f] - r.left[f]);
 		r.mass_flux[f] = 0.5 * (h[i] * ubar[i] + h[j] * ubar[j]) -
-		                 0.5 * (r.alpha0[f] * (r.right[f] - r.left[f]) + r.alpha1[f] * du);
+						 0.5 * (r.alpha0[f] * (r.right[f] - r.left[f]) + r.alpha1[f] * du);
 		r.jump[f] = 0;
 	}
 }
@@ -105,8 +105,8 @@ static double donor(const double *share, double flux, int f)
 /* Advance one component (`v` is u_a or w_a) of one layer: `top`, `bottom` are the rows above and below
  * (their own row at the surface and the bed, where the exchange is zero anyway). */
 static void advance_layer(struct model_state *s, double *discharge, const double *v,
-    const double *bottom, const double *top, const double *u, const double *below,
-    const double *above, const double *source, const double *rest, const double *share, double dt)
+	const double *bottom, const double *top, const double *u, const double *below,
+	const double *above, const double *source, const double *rest, const double *share, double dt)
 {
 	struct face_rows r = face_rows(s);
 	const double *h = s->h;
@@ -119,7 +119,7 @@ static void advance_layer(struct model_state *s, double *discharge, const double
 		double v_down = 0.25 * (v[i] + v[j] + bottom[i] + bottom[j]);
 		double exchange = -n * (v_up * above[f] - v_down * below[f]);
 		double diffusion = r.alpha0[f] * (r.right[f] * v[j] - r.left[f] * v[i]) +
-		                   r.alpha1[f] * (fj - fi + exchange + rest[f]);
+						   r.alpha1[f] * (fj - fi + exchange + rest[f]);
 
 		r.flux[f] = 0.5 * (fi + fj - diffusion) * donor(share, r.mass_flux[f], f);
 		r.half[f] = 0.5 * (exchange + source[f]);
@@ -129,7 +129,7 @@ static void advance_layer(struct model_state *s, double *discharge, const double
 }
 
 static void advance_layers(struct model_state *s, const double *ubar, const double *share,
-    double *above, const double *zero, double dt)
+	double *above, const double *zero, double dt)
 {
 	struct face_rows r = face_rows(s);
 	size_t stride = s->grid.stride;
@@ -144,15 +144,15 @@ static void advance_layers(struct model_state *s, const double *ubar, const doub
 		/* G at the interface above (P1 5); exactly 0 at the surface */
 		for (int f = 0; f < s->grid.faces; f++)
 			above[f] =
-			    a == last
-			        ? 0
-			        : r.jump[f] + (h[f + 1] * (u[f + 1] - ubar[f + 1]) - h[f] * (u[f] - ubar[f])) /
-			                          s->layers;
+				a == last
+					? 0
+					: r.jump[f] + (h[f + 1] * (u[f + 1] - ubar[f + 1]) - h[f] * (u[f] - ubar[f])) /
+									  s->layers;
 		advance_layer(s, s->U + row, u, s->u + down, s->u + up, u, r.jump, above, r.source,
-		    r.rest_source, share, dt);
+			r.rest_source, share, dt);
 		if (s->par.non_hydrostatic)
 			advance_layer(
-			    s, s->W + row, w, s->w + down, s->w + up, u, r.jump, above, zero, zero, share, dt);
+				s, s->W + row, w, s->w + down, s->w + up, u, r.jump, above, zero, zero, share, dt);
 		for (int f = 0; f < s->grid.faces; f++)
 			r.jump[f] = above[f];
 	}

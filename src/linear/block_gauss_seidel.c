@@ -43,20 +43,20 @@ static void gather(const struct pressure_system *system, int a, double *restrict
 	const double *restrict up = pressure_system_x(system, a + 1);
 	const double *restrict rhs = system->rhs + row;
 	const double *restrict bl = system->below_lower + row,
-	                       *restrict bd = system->below_diagonal + row,
-	                       *restrict bu = system->below_upper + row;
+						   *restrict bd = system->below_diagonal + row,
+						   *restrict bu = system->below_upper + row;
 	const double *restrict al = system->above_lower + row,
-	                       *restrict ad = system->above_diagonal + row,
-	                       *restrict au = system->above_upper + row;
+						   *restrict ad = system->above_diagonal + row,
+						   *restrict au = system->above_upper + row;
 
 	for (int f = 0; f < system->faces; f++)
 		right[f] = rhs[f] - (bl[f] * down[f - 1] + bd[f] * down[f] + bu[f] * down[f + 1]) -
-		           (al[f] * up[f - 1] + ad[f] * up[f] + au[f] * up[f + 1]);
+				   (al[f] * up[f - 1] + ad[f] * up[f] + au[f] * up[f + 1]);
 }
 
 /* The Thomas algorithm along x for layer a. The solution replaces `right`. */
 static void solve_layer(
-    const struct pressure_system *system, int a, double *restrict right, double *restrict ratio)
+	const struct pressure_system *system, int a, double *restrict right, double *restrict ratio)
 {
 	size_t row = pressure_system_row(system, a);
 	const double *restrict lower = system->lower + row;
@@ -77,7 +77,7 @@ static void solve_layer(
 /* Put the solution of a layer in place and add its increment to the error measure of the sweep. Four
  * partial sums in a fixed order, so that the additions do not wait for each other. */
 static double accept(double *restrict x, const double *restrict solution,
-    const double *restrict weight, int faces, int norm, double error)
+	const double *restrict weight, int faces, int norm, double error)
 {
 	double sum[4] = {0};
 	int f = 0;
@@ -111,7 +111,7 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 			gather(system, a, scratch->right);
 			solve_layer(system, a, scratch->right, scratch->ratio);
 			error = accept(pressure_system_x(system, a), scratch->right, system->weight,
-			    system->faces, rule->norm, error);
+				system->faces, rule->norm, error);
 		}
 		if (rule->norm == NORM_L2)
 			error = sqrt(error);
@@ -124,8 +124,8 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 }
 
 const struct pressure_solver block_gauss_seidel = {
-    .name = "block-gauss-seidel",
-    .create = create,
-    .solve = solve,
-    .free = destroy,
+	.name = "block-gauss-seidel",
+	.create = create,
+	.solve = solve,
+	.free = destroy,
 };

@@ -13,8 +13,8 @@ int pressure_system_init(struct pressure_system *system, int layers, int faces, 
 	if (!p)
 		return error_memory(err, count * sizeof *p);
 	double **parts[] = {&system->lower, &system->diagonal, &system->upper, &system->below_lower,
-	    &system->below_diagonal, &system->below_upper, &system->above_lower,
-	    &system->above_diagonal, &system->above_upper, &system->rhs};
+		&system->below_diagonal, &system->below_upper, &system->above_lower,
+		&system->above_diagonal, &system->above_upper, &system->rhs};
 	for (size_t i = 0; i < sizeof parts / sizeof *parts; i++, p += n)
 		*parts[i] = p;
 	system->weight = p;
@@ -43,10 +43,10 @@ double pressure_system_residual(const struct pressure_system *system)
 			size_t k = row + (size_t)f;
 			double b = system->rhs[k];
 			double r = b - system->lower[k] * x[f - 1] - system->diagonal[k] * x[f] -
-			           system->upper[k] * x[f + 1] - system->below_lower[k] * down[f - 1] -
-			           system->below_diagonal[k] * down[f] - system->below_upper[k] * down[f + 1] -
-			           system->above_lower[k] * up[f - 1] - system->above_diagonal[k] * up[f] -
-			           system->above_upper[k] * up[f + 1];
+					   system->upper[k] * x[f + 1] - system->below_lower[k] * down[f - 1] -
+					   system->below_diagonal[k] * down[f] - system->below_upper[k] * down[f + 1] -
+					   system->above_lower[k] * up[f - 1] - system->above_diagonal[k] * up[f] -
+					   system->above_upper[k] * up[f + 1];
 
 			residual += r * r;
 			scale += b * b;

@@ -66,9 +66,10 @@ int image_create(size_t payload, struct image **out, struct error *err)
 	image = *out;
 	access = H5Pcreate(H5P_FILE_ACCESS);
 	creation = H5Pcreate(H5P_FILE_CREATE);
-	/* grown once: metadata of a run are some 100 kB; names are listed in the order of creation */
+	/* Grown once: the metadata of a run are some 100 kB. Names are listed in the order of creation.
+	 * The oldest format bounds stay: H5Fget_file_image clears a flag in the newer superblocks and not
+	 * their checksum (1.10.8), and such an image cannot be opened. */
 	if (good(image, H5Pset_fapl_core(access, payload + (1U << 18), false)) &&
-		good(image, H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18)) &&
 		good(image, H5Pset_obj_track_times(creation, false)) &&
 		good(image,
 			H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED)) &&
@@ -195,7 +196,7 @@ static hid_t nameless_scale(struct image *image, size_t extent)
 {
 	hsize_t length = extent;
 	char path[64], name[80];
-	hid_t space, id;
+	hid_t space, list, id;
 
 	(void)snprintf(path, sizeof path, "/checkpoint/index_%zu", extent);
 	if (H5Lexists(image->file, path, H5P_DEFAULT) > 0)
@@ -203,8 +204,11 @@ static hid_t nameless_scale(struct image *image, size_t extent)
 	(void)snprintf(
 		name, sizeof name, "This is a netCDF dimension but not a netCDF variable.%10zu", extent);
 	space = H5Screate_simple(1, &length, NULL);
-	id = H5Dcreate2(
-		image->file, path, H5T_IEEE_F32BE, space, H5P_DEFAULT, image->creation, H5P_DEFAULT);
+	list = H5Pcopy(image->creation);
+	(void)good(
+		image, H5Pset_fill_time(list, H5D_FILL_TIME_IFSET)); /* or it would read as anything */
+	id = H5Dcreate2(image->file, path, H5T_IEEE_F32BE, space, H5P_DEFAULT, list, H5P_DEFAULT);
+	(void)H5Pclose(list);
 	(void)H5Sclose(space);
 	if (!good(image, id))
 		return -1;

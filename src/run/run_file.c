@@ -258,7 +258,7 @@ int run_file_dataset(
 	if (id < 0)
 		return error_at(err, EX_DATAERR, file->path, 0, 0, "holds no dataset '%s'", path);
 	count = shape_count(out);
-	out->values = malloc((count + 1) * sizeof *out->values);
+	out->values = calloc(count + 1, sizeof *out->values); /* HDF5 leaves unwritten values alone */
 	if (!out->values)
 		error_memory(err, count * sizeof *out->values);
 	else if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out->values) < 0)

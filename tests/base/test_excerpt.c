@@ -44,10 +44,10 @@ static void control_characters_are_masked(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-	    cmocka_unit_test(short_text_is_shown_whole),
-	    cmocka_unit_test(long_text_is_cut_with_dots),
-	    cmocka_unit_test(a_cut_does_not_split_a_character),
-	    cmocka_unit_test(control_characters_are_masked),
+		cmocka_unit_test(short_text_is_shown_whole),
+		cmocka_unit_test(long_text_is_cut_with_dots),
+		cmocka_unit_test(a_cut_does_not_split_a_character),
+		cmocka_unit_test(control_characters_are_masked),
 	};
 
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -85,8 +85,8 @@ static void choices_name_their_enumerators(void **state)
 
 	(void)state;
 	parse(&c, REQUIRED "pressure: hydrostatic\ndomain: {left: outflow, right: wall}\n"
-	                   "time: {wave_speed: mean}\nscheme: {friction_reconstruction: printed}\n"
-	                   "pressure_solver: {operator: pointwise, start: previous, norm: linf}\n");
+					   "time: {wave_speed: mean}\nscheme: {friction_reconstruction: printed}\n"
+					   "pressure_solver: {operator: pointwise, start: previous, norm: linf}\n");
 	assert_int_equal(c.pressure, PRESSURE_HYDROSTATIC);
 	assert_int_equal(c.domain.left, BOUNDARY_OUTFLOW);
 	assert_int_equal(c.domain.right, BOUNDARY_WALL);
@@ -105,29 +105,29 @@ static void rules_across_fields_blame_the_later_value(void **state)
 	static const struct {
 		const char *text, *message;
 	} cases[] = {
-	    {"n_ini_guess: 3\n", "a.yaml:4:14: n_ini_guess: 3 does not divide layers (10)"},
-	    {"n_ini_guess: 10\n", "a.yaml:4:14: n_ini_guess: 10 is not below layers (10)"},
-	    {"n_ini_guess: 20\n", "a.yaml:4:14: n_ini_guess: 20 is not below layers (10)"},
-	    {"domain: {x_max: 1 m, x_min: 100 cm}\n",
-	        "a.yaml:4:29: domain: x_min (1 m) is not below x_max (1 m)"},
-	    {"domain: {x_max: -1 m}\n",
-	        "a.yaml:4:17: domain: x_min (-0.2 m) is not below x_max (-1 m)"},
-	    {"initial: {front: 3.01 m}\n",
-	        "a.yaml:4:18: initial.front: 3.01 m is outside the domain, 3 m is its x_max"},
-	    {"initial: {front: -0.1 m}\ndomain: {x_min: 0 m}\n",
-	        "a.yaml:5:17: initial.front: -0.1 m is outside the domain, 0 m is its x_min"},
-	    {"rheology: {mu_s: 0.5, mu_2: 0.4}\n",
-	        "a.yaml:4:29: rheology: mu_s (0.5) is above mu_2 (0.4)"},
-	    {"rheology: {mu_2: 0.25}\n",
-	        "a.yaml:4:18: rheology: mu_s (0.4769755326981602) is above mu_2 (0.25)"},
-	    {"output: {profiles_at: [1 s, 3.5 s]}\n",
-	        "a.yaml:4:29: output.profiles_at: 3.5 s is after time.end (3 s)"},
-	    {"output: {profiles_at: [1 s, 2.5 s]}\ntime: {end: 2 s}\n",
-	        "a.yaml:5:13: output.profiles_at: 2.5 s is after time.end (2 s)"},
-	    {"output: {profiles_at: [2 s, 1 s]}\n",
-	        "a.yaml:4:29: output.profiles_at: 1 s is not above the value before it"},
-	    {"output: {profiles_at: [-1 s]}\n",
-	        "a.yaml:4:24: output.profiles_at: -1 s is out of range; it must be at least 0"},
+		{"n_ini_guess: 3\n", "a.yaml:4:14: n_ini_guess: 3 does not divide layers (10)"},
+		{"n_ini_guess: 10\n", "a.yaml:4:14: n_ini_guess: 10 is not below layers (10)"},
+		{"n_ini_guess: 20\n", "a.yaml:4:14: n_ini_guess: 20 is not below layers (10)"},
+		{"domain: {x_max: 1 m, x_min: 100 cm}\n",
+			"a.yaml:4:29: domain: x_min (1 m) is not below x_max (1 m)"},
+		{"domain: {x_max: -1 m}\n",
+			"a.yaml:4:17: domain: x_min (-0.2 m) is not below x_max (-1 m)"},
+		{"initial: {front: 3.01 m}\n",
+			"a.yaml:4:18: initial.front: 3.01 m is outside the domain, 3 m is its x_max"},
+		{"initial: {front: -0.1 m}\ndomain: {x_min: 0 m}\n",
+			"a.yaml:5:17: initial.front: -0.1 m is outside the domain, 0 m is its x_min"},
+		{"rheology: {mu_s: 0.5, mu_2: 0.4}\n",
+			"a.yaml:4:29: rheology: mu_s (0.5) is above mu_2 (0.4)"},
+		{"rheology: {mu_2: 0.25}\n",
+			"a.yaml:4:18: rheology: mu_s (0.4769755326981602) is above mu_2 (0.25)"},
+		{"output: {profiles_at: [1 s, 3.5 s]}\n",
+			"a.yaml:4:29: output.profiles_at: 3.5 s is after time.end (3 s)"},
+		{"output: {profiles_at: [1 s, 2.5 s]}\ntime: {end: 2 s}\n",
+			"a.yaml:5:13: output.profiles_at: 2.5 s is after time.end (2 s)"},
+		{"output: {profiles_at: [2 s, 1 s]}\n",
+			"a.yaml:4:29: output.profiles_at: 1 s is not above the value before it"},
+		{"output: {profiles_at: [-1 s]}\n",
+			"a.yaml:4:24: output.profiles_at: -1 s is out of range; it must be at least 0"},
 	};
 
 	(void)state;
@@ -139,7 +139,7 @@ static void rules_across_fields_blame_the_later_value(void **state)
 
 		text_addf(&text, "%s%s", REQUIRED, cases[i].text);
 		assert_int_equal(
-		    config_parse(&config, text.data, text.length, "a.yaml", NULL, 0, &err), -1);
+			config_parse(&config, text.data, text.length, "a.yaml", NULL, 0, &err), -1);
 		assert_int_equal(err.code, EX_DATAERR);
 		assert_string_equal(error_format(&err, shown, sizeof shown), cases[i].message);
 		text_clean(&text);
@@ -149,11 +149,11 @@ static void rules_across_fields_blame_the_later_value(void **state)
 static void limits_themselves_are_accepted(void **state)
 {
 	static const char *const settings[] = {"slope=0 deg", "slope=89.99 deg",
-	    "erodible_bed_thickness=0", "layers=1", "layers=512", "n_ini_guess=5", "n_ini_guess=1",
-	    "domain.cells=2", "domain.cells=1000000", "time.cfl=1", "grains.solid_fraction=1",
-	    "initial.front=-0.2 m", "initial.front=3 m", "rheology.mu_2=tan(25.5 deg)",
-	    "output.profiles_at=[0 s, 3 s]", "output.profiles_at=[]", "checkpoint.every=0",
-	    "pressure_solver.max_iterations=1", "domain={cells: 20, left: outflow}"};
+		"erodible_bed_thickness=0", "layers=1", "layers=512", "n_ini_guess=5", "n_ini_guess=1",
+		"domain.cells=2", "domain.cells=1000000", "time.cfl=1", "grains.solid_fraction=1",
+		"initial.front=-0.2 m", "initial.front=3 m", "rheology.mu_2=tan(25.5 deg)",
+		"output.profiles_at=[0 s, 3 s]", "output.profiles_at=[]", "checkpoint.every=0",
+		"pressure_solver.max_iterations=1", "domain={cells: 20, left: outflow}"};
 
 	(void)state;
 	for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
@@ -167,14 +167,14 @@ static void limits_themselves_are_accepted(void **state)
 static void values_beyond_the_limits_are_refused(void **state)
 {
 	static const char *const settings[] = {"slope=90 deg", "slope=-1 deg",
-	    "erodible_bed_thickness=-1e-9 m", "layers=0", "layers=513", "n_ini_guess=-1",
-	    "domain.cells=1", "domain.cells=1000001", "time.cfl=0", "time.cfl=1.001", "time.end=0 s",
-	    "grains.solid_fraction=0", "grains.solid_fraction=1.01", "grains.diameter=0 m",
-	    "grains.density=0 kg/m3", "initial.height=0 m", "rheology.mu_s=0", "rheology.mu_2=0",
-	    "rheology.i_0=0", "regularisation.strain_rate=0 1/s", "regularisation.velocity=0 m/s",
-	    "pressure_solver.tolerance=0", "pressure_solver.max_iterations=0",
-	    "output.series_every=-1 s", "output.front_threshold=0 m", "output.static_speed=0 m/s",
-	    "checkpoint.every=-1 s", "checkpoint.every_steps=-1"};
+		"erodible_bed_thickness=-1e-9 m", "layers=0", "layers=513", "n_ini_guess=-1",
+		"domain.cells=1", "domain.cells=1000001", "time.cfl=0", "time.cfl=1.001", "time.end=0 s",
+		"grains.solid_fraction=0", "grains.solid_fraction=1.01", "grains.diameter=0 m",
+		"grains.density=0 kg/m3", "initial.height=0 m", "rheology.mu_s=0", "rheology.mu_2=0",
+		"rheology.i_0=0", "regularisation.strain_rate=0 1/s", "regularisation.velocity=0 m/s",
+		"pressure_solver.tolerance=0", "pressure_solver.max_iterations=0",
+		"output.series_every=-1 s", "output.front_threshold=0 m", "output.static_speed=0 m/s",
+		"checkpoint.every=-1 s", "checkpoint.every_steps=-1"};
 
 	(void)state;
 	for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
@@ -182,7 +182,7 @@ static void values_beyond_the_limits_are_refused(void **state)
 		struct error err = {0};
 
 		assert_int_equal(
-		    config_parse(&config, REQUIRED, strlen(REQUIRED), "a.yaml", &settings[i], 1, &err), -1);
+			config_parse(&config, REQUIRED, strlen(REQUIRED), "a.yaml", &settings[i], 1, &err), -1);
 		if (!strstr(err.text, " is out of range; it must be "))
 			fail_msg("%s: %s", settings[i], err.text);
 	}
@@ -192,7 +192,7 @@ static void later_settings_win_and_replace_the_file_before_checks(void **state)
 {
 	const char *text = "slope: 22 deg\nerodible_bed_thickness: 1 mm\nlayers: 2.5\n";
 	const char *const settings[] = {
-	    "layers=6", "n_ini_guess=4", "layers=8", "output.profiles_at=[0.32 s, 3 s]"};
+		"layers=6", "n_ini_guess=4", "layers=8", "output.profiles_at=[0.32 s, 3 s]"};
 	struct config config;
 	struct error err = {0};
 
@@ -220,25 +220,25 @@ static void a_bad_setting_cites_itself(void **state)
 	static const struct {
 		const char *setting, *message;
 	} cases[] = {
-	    {"layers=2.5", "layers: 2.5 is not a whole number"},
-	    {"layer=2", "unknown key 'layer'; did you mean 'layers'?"},
-	    {"cells=2", "unknown key 'cells'; did you mean 'domain.cells'?"},
-	    {"tme.cfl=1", "unknown key 'tme.cfl'; did you mean 'time.cfl'?"},
-	    {"layers", "a setting is written key=value"},
-	    {"", "a setting is written key=value"},
-	    {"layers=", "layers: the value is missing"},
-	    {"layers= ", "layers: the value is missing"},
-	    {"domain=3", "domain: expected a group of keys, not a single value"},
-	    {"domain={cell: 3}", "unknown key 'domain.cell'; did you mean 'domain.cells'?"},
-	    {"layers=[3]", "layers: expected a single value, not a list"},
-	    {"layers=3: 4", "layers: expected a single value, not a group of keys"},
-	    {"layers=*a", "layers: anchors and aliases are not supported"},
-	    {"layers=# 3", "layers: the document is empty"},
-	    {"n_ini_guess=3", "n_ini_guess: 3 does not divide layers (10)"},
-	    {"output.profiles_at=[1, 5 s]", "output.profiles_at: 5 s is after time.end (3 s)"},
-	    {"output.profiles_at=[1, nan]", "output.profiles_at: nan is not a finite decimal number"},
-	    {"output.profiles_at=[1", "output.profiles_at: not valid YAML: while parsing a flow "
-	                              "sequence, did not find expected ',' or ']'"},
+		{"layers=2.5", "layers: 2.5 is not a whole number"},
+		{"layer=2", "unknown key 'layer'; did you mean 'layers'?"},
+		{"cells=2", "unknown key 'cells'; did you mean 'domain.cells'?"},
+		{"tme.cfl=1", "unknown key 'tme.cfl'; did you mean 'time.cfl'?"},
+		{"layers", "a setting is written key=value"},
+		{"", "a setting is written key=value"},
+		{"layers=", "layers: the value is missing"},
+		{"layers= ", "layers: the value is missing"},
+		{"domain=3", "domain: expected a group of keys, not a single value"},
+		{"domain={cell: 3}", "unknown key 'domain.cell'; did you mean 'domain.cells'?"},
+		{"layers=[3]", "layers: expected a single value, not a list"},
+		{"layers=3: 4", "layers: expected a single value, not a group of keys"},
+		{"layers=*a", "layers: anchors and aliases are not supported"},
+		{"layers=# 3", "layers: the document is empty"},
+		{"n_ini_guess=3", "n_ini_guess: 3 does not divide layers (10)"},
+		{"output.profiles_at=[1, 5 s]", "output.profiles_at: 5 s is after time.end (3 s)"},
+		{"output.profiles_at=[1, nan]", "output.profiles_at: nan is not a finite decimal number"},
+		{"output.profiles_at=[1", "output.profiles_at: not valid YAML: while parsing a flow "
+								  "sequence, did not find expected ',' or ']'"},
 	};
 
 	(void)state;
@@ -248,11 +248,11 @@ static void a_bad_setting_cites_itself(void **state)
 		char shown[sizeof err.text], expected[256];
 
 		assert_int_equal(
-		    config_parse(&config, REQUIRED, strlen(REQUIRED), "a.yaml", &cases[i].setting, 1, &err),
-		    -1);
+			config_parse(&config, REQUIRED, strlen(REQUIRED), "a.yaml", &cases[i].setting, 1, &err),
+			-1);
 		assert_int_equal(err.code, EX_DATAERR);
 		(void)snprintf(
-		    expected, sizeof expected, "--set %s: %s", cases[i].setting, cases[i].message);
+			expected, sizeof expected, "--set %s: %s", cases[i].setting, cases[i].message);
 		assert_string_equal(error_format(&err, shown, sizeof shown), expected);
 	}
 }
@@ -264,8 +264,8 @@ static void a_printed_config_reads_back_to_the_same_bytes(void **state)
 
 	(void)state;
 	parse(&config, REQUIRED "n_ini_guess: 2\ninitial: {height: 0.1234567890123456789 m}\n"
-	                        "output: {profiles_at: [0.1, 0.32 s, 2500 ms]}\n"
-	                        "rheology: {mu_s: tan(20.9 deg), mu_2: 0.7}\n");
+							"output: {profiles_at: [0.1, 0.32 s, 2500 ms]}\n"
+							"rheology: {mu_s: tan(20.9 deg), mu_2: 0.7}\n");
 	config_print(&config, &text);
 	assert_false(text.failed);
 	parse(&again, text_string(&text));
@@ -305,7 +305,7 @@ static void values_are_asked_by_key(void **state)
 	static const struct {
 		const char *key, *value;
 	} cases[] = {{"layers", "10"}, {"erodible_bed_thickness", "0.00182 m"},
-	    {"pressure_solver.operator", "symmetric"}, {"output.profiles_at", "[]"}};
+		{"pressure_solver.operator", "symmetric"}, {"output.profiles_at", "[]"}};
 	struct config config;
 	struct text text = {0};
 	struct error err = {0};
@@ -339,10 +339,10 @@ static void hash_of(const char *setting, char hash[CONFIG_HASH_SIZE])
 static void the_hash_follows_values_not_spellings(void **state)
 {
 	static const char *const same[] = {"erodible_bed_thickness=0.00182", "time.end=3000 ms",
-	    "time={end: 0.05 min}", "initial.front=-0 m", "checkpoint.every=1 s",
-	    "checkpoint.every_steps=7"};
+		"time={end: 0.05 min}", "initial.front=-0 m", "checkpoint.every=1 s",
+		"checkpoint.every_steps=7"};
 	static const char *const other[] = {"erodible_bed_thickness=1.83 mm", "layers=5",
-	    "time.end=4 s", "pressure_solver.norm=l1", "output.profiles_at=[1]"};
+		"time.end=4 s", "pressure_solver.norm=l1", "output.profiles_at=[1]"};
 	char first[CONFIG_HASH_SIZE], second[CONFIG_HASH_SIZE];
 
 	(void)state;
@@ -368,7 +368,7 @@ static void differences_name_the_keys(void **state)
 	b.layers = 20;
 	config_differences(&a, &b, &text);
 	assert_string_equal(text_string(&text),
-	    "layers: 10 -> 20\ntime.cfl: 0.7 -> 0.5\noutput.profiles_at: [] -> [1 s]\n");
+		"layers: 10 -> 20\ntime.cfl: 0.7 -> 0.5\noutput.profiles_at: [] -> [1 s]\n");
 	text_clean(&text);
 	config_differences(&a, &a, &text);
 	assert_string_equal(text_string(&text), "");
@@ -432,7 +432,7 @@ static void parsing_takes_well_under_a_millisecond(void **state)
 	(void)state;
 	for (int i = 0; i < 200; i++)
 		assert_int_equal(
-		    config_parse(&config, REQUIRED, strlen(REQUIRED), "a.yaml", settings, 3, &err), 0);
+			config_parse(&config, REQUIRED, strlen(REQUIRED), "a.yaml", settings, 3, &err), 0);
 	/* 0.1 ms is usual; 5 ms leaves room for sanitizers, valgrind and a busy machine */
 	assert_true((double)(clock() - start) / CLOCKS_PER_SEC / 200 < 5e-3);
 }
@@ -440,22 +440,22 @@ static void parsing_takes_well_under_a_millisecond(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-	    cmocka_unit_test(defaults_are_those_of_the_granular_collapse),
-	    cmocka_unit_test(choices_name_their_enumerators),
-	    cmocka_unit_test(rules_across_fields_blame_the_later_value),
-	    cmocka_unit_test(limits_themselves_are_accepted),
-	    cmocka_unit_test(values_beyond_the_limits_are_refused),
-	    cmocka_unit_test(later_settings_win_and_replace_the_file_before_checks),
-	    cmocka_unit_test(a_required_key_may_come_from_a_setting),
-	    cmocka_unit_test(a_bad_setting_cites_itself),
-	    cmocka_unit_test(a_printed_config_reads_back_to_the_same_bytes),
-	    cmocka_unit_test(every_key_can_be_set),
-	    cmocka_unit_test(values_are_asked_by_key),
-	    cmocka_unit_test(the_hash_follows_values_not_spellings),
-	    cmocka_unit_test(differences_name_the_keys),
-	    cmocka_unit_test(the_reference_config_in_the_tree_is_up_to_date_and_reads_as_the_defaults),
-	    cmocka_unit_test(the_annotated_config_has_every_key),
-	    cmocka_unit_test(parsing_takes_well_under_a_millisecond),
+		cmocka_unit_test(defaults_are_those_of_the_granular_collapse),
+		cmocka_unit_test(choices_name_their_enumerators),
+		cmocka_unit_test(rules_across_fields_blame_the_later_value),
+		cmocka_unit_test(limits_themselves_are_accepted),
+		cmocka_unit_test(values_beyond_the_limits_are_refused),
+		cmocka_unit_test(later_settings_win_and_replace_the_file_before_checks),
+		cmocka_unit_test(a_required_key_may_come_from_a_setting),
+		cmocka_unit_test(a_bad_setting_cites_itself),
+		cmocka_unit_test(a_printed_config_reads_back_to_the_same_bytes),
+		cmocka_unit_test(every_key_can_be_set),
+		cmocka_unit_test(values_are_asked_by_key),
+		cmocka_unit_test(the_hash_follows_values_not_spellings),
+		cmocka_unit_test(differences_name_the_keys),
+		cmocka_unit_test(the_reference_config_in_the_tree_is_up_to_date_and_reads_as_the_defaults),
+		cmocka_unit_test(the_annotated_config_has_every_key),
+		cmocka_unit_test(parsing_takes_well_under_a_millisecond),
 	};
 
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,5 @@
 /* The dry model as a whole: what it conserves, where it rests, and how it fails. */
+#include <cmocka.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -6,7 +7,6 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "dry/dry.h"
 
@@ -73,8 +73,8 @@ static double observed(const struct model_state *s, const char *name)
 
 #define CASE(...)                                                                                  \
 	{                                                                                              \
-		(const char *const[]){__VA_ARGS__}, (int)(sizeof((const char *const[]){__VA_ARGS__}) /     \
-											  sizeof(char *))                                      \
+		(const char *const[]){__VA_ARGS__},                                                        \
+			(int)(sizeof((const char *const[]){__VA_ARGS__}) / sizeof(char *))                     \
 	}
 
 /* Combinations that every promise below is held against. */
@@ -208,8 +208,8 @@ static void the_projection_leaves_no_divergence(void **state)
 	double before = 0, after = 0;
 	struct pressure_system *system = &s->full.system;
 	size_t count = (size_t)system->layers * (size_t)system->faces;
-	struct pressure_input input = {&s->grid, s->layers, 1e-3, s->h, s->b, s->u, s->w, s->dry,
-		s->face};
+	struct pressure_input input = {
+		&s->grid, s->layers, 1e-3, s->h, s->b, s->u, s->w, s->dry, s->face};
 
 	(void)state;
 	advance(s, 0.05);
@@ -285,12 +285,11 @@ static void the_symmetric_operator_is_the_adjoint_of_the_force(void **state)
 			const double *here = pressure_system_x(system, a) + f;
 			const double *down = here - system->x_stride, *up = here + system->x_stride;
 
-			found += y[k] *
-				(system->lower[k] * here[-1] + system->diagonal[k] * here[0] +
-					system->upper[k] * here[1] + system->below_lower[k] * down[-1] +
-					system->below_diagonal[k] * down[0] + system->below_upper[k] * down[1] +
-					system->above_lower[k] * up[-1] + system->above_diagonal[k] * up[0] +
-					system->above_upper[k] * up[1]);
+			found += y[k] * (system->lower[k] * here[-1] + system->diagonal[k] * here[0] +
+								system->upper[k] * here[1] + system->below_lower[k] * down[-1] +
+								system->below_diagonal[k] * down[0] +
+								system->below_upper[k] * down[1] + system->above_lower[k] * up[-1] +
+								system->above_diagonal[k] * up[0] + system->above_upper[k] * up[1]);
 		}
 	assert_true(fabs(found - expected) <= 1e-10 * fabs(expected));
 	free(x);
@@ -313,8 +312,8 @@ static void the_two_operators_agree_more_on_a_finer_grid(void **state)
 		struct model_state *s[2];
 
 		for (int i = 0; i < 2; i++) {
-			settings[1] = i ? "pressure_solver.operator=pointwise"
-							: "pressure_solver.operator=symmetric";
+			settings[1] =
+				i ? "pressure_solver.operator=pointwise" : "pressure_solver.operator=symmetric";
 			struct config config = read_config(settings, 4);
 			s[i] = create(&config);
 			advance(s[i], config.time.end);

@@ -1,9 +1,9 @@
+#include <cmocka.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <cmocka.h>
 
 #include "linear/pressure_solver.h"
 
@@ -54,8 +54,8 @@ static double distance(const struct pressure_system *system)
 	return worst;
 }
 
-static int solve(int layers, int faces, int norm, double tolerance, int most, double *error,
-	double *residual)
+static int solve(
+	int layers, int faces, int norm, double tolerance, int most, double *error, double *residual)
 {
 	struct pressure_system system;
 	struct error err = {0};
@@ -85,8 +85,8 @@ static void it_finds_the_exact_solution_in_every_norm_and_size(void **state)
 		for (int norm = NORM_L1; norm <= NORM_LINF; norm++) {
 			double error, residual;
 
-			assert_true(solve(sizes[i].layers, sizes[i].faces, norm, 1e-13, 200, &error,
-							&residual) > 0);
+			assert_true(
+				solve(sizes[i].layers, sizes[i].faces, norm, 1e-13, 200, &error, &residual) > 0);
 			/* the error of a contraction by at least 1/2 is at most the last increment; rounding
 			 * adds some ulps of values of order 1 */
 			assert_true(error < 1e-12);
@@ -109,7 +109,8 @@ static void the_norms_ask_for_different_numbers_of_sweeps(void **state)
 	int linf = solve(8, 200, NORM_LINF, 1e-6, 100, &error, &residual);
 
 	(void)state;
-	assert_true(l1 > linf); /* with weight 1 a sum over 1600 unknowns is more than its largest term */
+	assert_true(
+		l1 > linf); /* with weight 1 a sum over 1600 unknowns is more than its largest term */
 }
 
 static void too_few_iterations_are_told_as_a_negative_count(void **state)
