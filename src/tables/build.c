@@ -300,7 +300,9 @@ static void write_title(const struct builder *builder)
 	const char *title = builder->layout->wanted->title;
 	struct text *out = &builder->table->title;
 
-	text_addf(out, "%s: %s", builder->table->name, *title ? title : experiment->title);
+	if (!*title)
+		title = experiment->title;
+	text_addf(out, "%s%s%s", builder->table->name, *title ? ": " : "", title);
 	if (*experiment->source)
 		text_addf(out, " (%s)", experiment->source);
 	if (experiment->repeat > 1)
