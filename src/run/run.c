@@ -18,10 +18,10 @@ enum course { START, RESUME, NOTHING };
 /* Refuse a file that this config and this program would not have made. */
 static int compare_config(const struct attempt *attempt, struct run_file *file, struct error *err)
 {
-	struct text stored = {0}, keys = {0};
+	struct text stored = {0}, keys = {0}, list = {0};
 	struct error unreadable = {0};
 	struct config config;
-	int result = -1;
+	char *rest;
 
 	if (!strcmp(run_file_summary(file)->config_hash, attempt->config_hash))
 		return 0;
@@ -30,17 +30,17 @@ static int compare_config(const struct attempt *attempt, struct run_file *file, 
 	if (config_parse(&config, text_string(&stored), stored.length, run_file_path(file), NULL, 0,
 			&unreadable) == 0)
 		config_differences(&config, attempt->config, &keys);
-	while (keys.length && keys.data[keys.length - 1] == '\n')
-		keys.data[--keys.length] = '\0';
-	for (char *end = keys.data; end && (end = strchr(end, '\n'));)
-		*end = ',';
+	for (char *key = keys.data ? strtok_r(keys.data, "\n", &rest) : NULL; key;
+		 key = strtok_r(NULL, "\n", &rest))
+		text_addf(&list, list.length ? ", %s" : "%s", key);
 	error_at(err, EX_DATAERR, run_file_path(file), 0, 0,
 		"was made from another config (%s); name another folder with -o, or remove this one",
-		keys.length ? text_string(&keys) : "one that this version cannot read");
+		list.length ? text_string(&list) : "one that this version cannot read");
 done:
 	text_clean(&stored);
 	text_clean(&keys);
-	return result;
+	text_clean(&list);
+	return -1;
 }
 
 static int compare_numerics(const struct attempt *attempt, struct run_file *file, struct error *err)

@@ -1,0 +1,226 @@
+/* A run that was stopped and resumed holds the bits of one that never was. */
+#include "../run/logistic.h"
+
+#include "base/file.h"
+
+static void stops_anywhere_change_no_bit(void **state)
+{
+	struct config config = logistic_config("");
+
+	(void)state;
+	logistic.number = SIGTERM;
+	must_execute(&config, "straight");
+	for (uint64_t step = 1; step < 70; step += 3) {
+		char name[32];
+
+		(void)snprintf(name, sizeof name, "stopped-%llu", (unsigned long long)step);
+		logistic.raise_at[0] = step;
+		logistic.raise_at[1] = step + 7;
+		assert_int_equal(execute_in_child(&config, name, false), EX_INTERRUPTED);
+		assert_int_equal(execute_in_child(&config, name, false), EX_INTERRUPTED);
+		assert_int_equal(execute_in_child(&config, name, false), 0);
+		assert_same_bits("straight", name);
+	}
+}
+
+static void a_stop_after_every_step_changes_no_bit(void **state)
+{
+	struct config config = logistic_config("output.series_every=0.07;time.end=0.4");
+
+	(void)state;
+	logistic.number = SIGUSR1;
+	must_execute(&config, "straight");
+	for (int code = EX_INTERRUPTED; code != 0; logistic.raise_at[0]++) {
+		code = execute_in_child(&config, "stopped", false);
+		if (code != 0)
+			assert_int_equal(code, EX_INTERRUPTED);
+		assert_true(logistic.raise_at[0] < 100);
+	}
+	assert_same_bits("straight", "stopped");
+}
+
+static void kills_between_checkpoints_change_no_bit(void **state)
+{
+	struct config config = logistic_config("checkpoint.every_steps=5");
+
+	(void)state;
+	logistic.number = SIGKILL;
+	must_execute(&config, "straight");
+	for (uint64_t step = 3; step < 60; step += 11) {
+		struct run_file *file;
+
+		logistic.raise_at[0] = step;
+		assert_int_equal(execute_in_child(&config, "killed", false), -SIGKILL);
+		file = open_run("killed");
+		assert_int_equal(run_file_summary(file)->step, (step - 1) / 5 * 5);
+		run_file_close(file);
+	}
+	logistic.raise_at[0] = 0;
+	must_execute(&config, "killed");
+	assert_same_bits("straight", "killed");
+}
+
+static void the_checkpoint_cadence_changes_no_bit(void **state)
+{
+	struct config config = logistic_config(""), often = logistic_config("checkpoint.every_steps=1"),
+				  clock = logistic_config("checkpoint.every=1e-3");
+
+	(void)state;
+	must_execute(&config, "never");
+	must_execute(&often, "often");
+	must_execute(&clock, "clock");
+	assert_same_bits("never", "often");
+	assert_same_bits("never", "clock");
+}
+
+/* Row of `file` at time t of dataset `times`, or -1. */
+static long row_at(const struct dataset *times, double t)
+{
+	for (size_t i = 0; i < times->extent[0]; i++)
+		if (times->values[i] == t)
+			return (long)i;
+	return -1;
+}
+
+static struct dataset read_dataset(const char *name, const char *path)
+{
+	struct run_file *file = open_run(name);
+	struct dataset data;
+	struct error err = {0};
+
+	if (run_file_dataset(file, path, &data, &err) != 0)
+		fail_msg("%s", err.text);
+	run_file_close(file);
+	return data;
+}
+
+/* Every row of the sparse dataset is a row of the dense one, bit by bit. */
+static void assert_rows_within(
+	const char *sparse, const char *dense, const char *axis, const char *path)
+{
+	struct dataset few_times = read_dataset(sparse, axis), times = read_dataset(dense, axis);
+	struct dataset few = read_dataset(sparse, path), all = read_dataset(dense, path);
+	size_t width = 1;
+
+	for (int i = 1; i < all.rank; i++)
+		width *= all.extent[i];
+	assert_true(few_times.extent[0] > 1);
+	for (size_t i = 0; i < few_times.extent[0]; i++) {
+		long row = row_at(&times, few_times.values[i]);
+
+		assert_true(row >= 0);
+		assert_memory_equal(
+			few.values + i * width, all.values + (size_t)row * width, width * sizeof(double));
+	}
+	free(few_times.values);
+	free(times.values);
+	free(few.values);
+	free(all.values);
+}
+
+static void the_cadence_of_series_and_profiles_changes_no_number(void **state)
+{
+	struct config dense = logistic_config("output.profiles_at=[0.05,0.1,0.2,0.3,0.55]"),
+				  sparse = logistic_config("output.profiles_at=[0.1,0.55];output.series_every=0.1");
+	static const char *const series[] = {
+		"/front_position", "/front_velocity", "/late", "/late_velocity", "/mass"};
+	struct dataset times;
+
+	(void)state;
+	must_execute(&dense, "dense");
+	must_execute(&sparse, "sparse");
+	for (size_t i = 0; i < sizeof series / sizeof *series; i++)
+		assert_rows_within("sparse", "dense", "/time", series[i]);
+	assert_rows_within("sparse", "dense", "/profile_time", "/u");
+	assert_rows_within("sparse", "dense", "/profile_time", "/p");
+	times = read_dataset("sparse", "/time");
+	assert_int_equal(times.extent[0], 11);
+	free(times.values);
+}
+
+static void a_run_whose_newest_file_is_gone_resumes(void **state)
+{
+	struct config config = logistic_config("checkpoint.every_steps=5");
+
+	(void)state;
+	must_execute(&config, "straight");
+	logistic.number = SIGKILL;
+	logistic.raise_at[0] = 33;
+	assert_int_equal(execute_in_child(&config, "a", false), -SIGKILL);
+	assert_int_equal(unlink(in_folder("a/run.h5")), 0);
+	logistic.raise_at[0] = 27;
+	assert_int_equal(execute_in_child(&config, "a", false), -SIGKILL); /* it begins from step 25 */
+	logistic.raise_at[0] = 20;
+	must_execute(&config, "a");
+	assert_same_bits("straight", "a");
+}
+
+static void damage(const char *name)
+{
+	FILE *file = fopen(in_folder(name), "r+");
+
+	assert_non_null(file);
+	assert_int_equal(fseek(file, 5000, SEEK_SET), 0);
+	assert_int_equal(fwrite("damage", 1, 6, file), 6);
+	assert_int_equal(fclose(file), 0);
+}
+
+static void a_damaged_newest_file_falls_back_without_losing_the_good_one(void **state)
+{
+	struct config config = logistic_config("checkpoint.every_steps=5");
+	struct run_summary summary;
+	struct error err = {0};
+
+	(void)state;
+	must_execute(&config, "straight");
+	logistic.number = SIGKILL;
+	logistic.raise_at[0] = 33;
+	assert_int_equal(execute_in_child(&config, "a", false), -SIGKILL);
+	damage("a/run.h5");
+	logistic.raise_at[0] = 32;
+	assert_int_equal(execute_in_child(&config, "a", false), -SIGKILL);
+	/* the checkpoint of step 30 replaced the damaged one: the good one of 25 is still there */
+	assert_int_equal(run_file_peek(in_folder("a/run.previous.h5"), &summary, &err), 0);
+	assert_int_equal(summary.step, 25);
+	logistic.raise_at[0] = 0;
+	must_execute(&config, "a");
+	assert_same_bits("straight", "a");
+}
+
+static void two_damaged_files_are_65_and_stay(void **state)
+{
+	struct config config = logistic_config("checkpoint.every_steps=5");
+	struct run_report report;
+	struct error err = {0};
+
+	(void)state;
+	must_execute(&config, "a");
+	damage("a/run.h5");
+	damage("a/run.previous.h5");
+	assert_int_equal(execute(&config, "a", false, &err), -1);
+	assert_int_equal(err.code, EX_DATAERR);
+	assert_non_null(strstr(err.text, "run.h5: is damaged"));
+	assert_non_null(strstr(err.text, "run.previous.h5: is damaged"));
+	assert_true(file_exists(in_folder("a/run.h5")) && file_exists(in_folder("a/run.previous.h5")));
+	assert_int_equal(truncate(in_folder("a/run.h5"), 1000), 0);
+	assert_int_equal(truncate(in_folder("a/run.previous.h5"), 1000), 0);
+	run_report_read(in_folder("a"), &report);
+	assert_int_equal(report.state, RUN_STATE_DAMAGED);
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_setup_teardown(name, make_folder, remove_folder)
+	const struct CMUnitTest tests[] = {
+		TEST(stops_anywhere_change_no_bit),
+		TEST(a_stop_after_every_step_changes_no_bit),
+		TEST(kills_between_checkpoints_change_no_bit),
+		TEST(the_checkpoint_cadence_changes_no_bit),
+		TEST(the_cadence_of_series_and_profiles_changes_no_number),
+		TEST(a_run_whose_newest_file_is_gone_resumes),
+		TEST(a_damaged_newest_file_falls_back_without_losing_the_good_one),
+		TEST(two_damaged_files_are_65_and_stay),
+	};
+
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
