@@ -1,5 +1,6 @@
 /* One builder for every table: measure each run, gather the repeats of a cell, lay the cells out. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -221,9 +222,11 @@ static int add_columns(const struct builder *builder, struct error *err)
 {
 	const struct layout *layout = builder->layout;
 	struct table *table = builder->table;
-	const char *source = builder->experiment->source;
+	char source[32]; /* "P1" of "P1 Table 4"; the title has all of it */
 	size_t most = layout->rows.keys + 2 * layout->columns.count * layout->measure_count;
 
+	(void)snprintf(source, sizeof source, "%.*s", (int)strcspn(builder->experiment->source, " "),
+		builder->experiment->source);
 	table->columns = calloc(most, sizeof *table->columns);
 	if (!table->columns)
 		return error_memory(err, most * sizeof *table->columns);
@@ -235,8 +238,10 @@ static int add_columns(const struct builder *builder, struct error *err)
 	}
 	for (size_t c = 0; c < layout->columns.count; c++)
 		for (size_t m = 0; m < layout->measure_count; m++) {
-			TRY(add_number_column(builder, c, m, "", err));
-			if (any_published(layout, c, m))
+			bool published = any_published(layout, c, m);
+
+			TRY(add_number_column(builder, c, m, published ? "ours" : "", err));
+			if (published)
 				TRY(add_number_column(builder, c, m, *source ? source : "published", err));
 		}
 	return 0;
@@ -295,7 +300,9 @@ static void write_title(const struct builder *builder)
 	const char *title = builder->layout->wanted->title;
 	struct text *out = &builder->table->title;
 
-	text_addf(out, "%s: %s", builder->table->name, *title ? title : experiment->title);
+	if (!*title)
+		title = experiment->title;
+	text_addf(out, "%s%s%s", builder->table->name, *title ? ": " : "", title);
 	if (*experiment->source)
 		text_addf(out, " (%s)", experiment->source);
 	if (experiment->repeat > 1)

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "talus/tables.h"
+#include "tables/format.h"
 
 /* Enough decimals for three significant digits. */
 static int decimals_of(const struct table_column *column, double value)
@@ -18,9 +18,7 @@ static int decimals_of(const struct table_column *column, double value)
 	return whole >= 3 ? 0 : whole < -6 ? 9 : 3 - whole;
 }
 
-/* A cell for people. */
-static void add_cell(
-	const struct table_column *column, const struct table_cell *cell, struct text *out)
+void format_cell(const struct table_column *column, const struct table_cell *cell, struct text *out)
 {
 	int decimals = decimals_of(column, cell->value);
 
@@ -39,97 +37,6 @@ static void add_cell(
 			text_addf(out, " \u00b1 %.*f", decimals, cell->spread);
 		break;
 	}
-}
-
-/* Columns on the screen of UTF-8 text without wide or combining characters. */
-static int width_of(const char *string)
-{
-	int width = 0;
-
-	for (; *string; string++)
-		width += ((unsigned char)*string & 0xC0) != 0x80;
-	return width;
-}
-
-static int column_width(const struct table *table, size_t c)
-{
-	const struct table_column *column = &table->columns[c];
-	int width = 1;
-
-	for (size_t k = 0; k < column->head_count; k++)
-		if (width_of(column->heads[k]) > width)
-			width = width_of(column->heads[k]);
-	for (size_t row = 0; row < table->row_count; row++) {
-		struct text cell = {0};
-
-		add_cell(column, &table->cells[row * table->column_count + c], &cell);
-		if (width_of(text_string(&cell)) > width)
-			width = width_of(text_string(&cell));
-		text_clean(&cell);
-	}
-	return width;
-}
-
-static void add_padded(struct text *out, const char *string, int width, bool left, bool last)
-{
-	int blanks = width - width_of(string);
-
-	if (left)
-		text_addf(out, "%s%*s", string, last ? 0 : blanks, "");
-	else
-		text_addf(out, "%*s%s", blanks, "", string);
-	if (!last)
-		text_add(out, "  ");
-}
-
-/* The heads of labels stand on the last line, those of numbers begin on the first. */
-static const char *head_in_line(const struct table *table, size_t c, size_t line, size_t lines)
-{
-	const struct table_column *column = &table->columns[c];
-	size_t skipped = column->label ? lines - column->head_count : 0;
-
-	if (line < skipped || line - skipped >= column->head_count)
-		return "";
-	return column->heads[line - skipped];
-}
-
-static void trim_line(struct text *out)
-{
-	while (out->length && out->data[out->length - 1] == ' ')
-		out->data[--out->length] = '\0';
-	text_add(out, "\n");
-}
-
-static void print_text(const struct table *table, struct text *out)
-{
-	size_t lines = 1;
-
-	for (size_t c = 0; c < table->column_count; c++)
-		if (table->columns[c].head_count > lines)
-			lines = table->columns[c].head_count;
-	text_addf(out, "%s\n\n", text_string(&table->title));
-	for (size_t line = 0; line < lines; line++) {
-		for (size_t c = 0; c < table->column_count; c++)
-			add_padded(out, head_in_line(table, c, line, lines), column_width(table, c),
-				table->columns[c].label, c + 1 == table->column_count);
-		trim_line(out);
-	}
-	for (size_t c = 0; c < table->column_count; c++)
-		for (int i = column_width(table, c) + (c + 1 < table->column_count ? 2 : 0); i > 0; i--)
-			text_add(out, "-");
-	text_add(out, "\n");
-	for (size_t row = 0; row < table->row_count; row++) {
-		for (size_t c = 0; c < table->column_count; c++) {
-			struct text cell = {0};
-
-			add_cell(&table->columns[c], &table->cells[row * table->column_count + c], &cell);
-			add_padded(out, text_string(&cell), column_width(table, c), table->columns[c].label,
-				c + 1 == table->column_count);
-			text_clean(&cell);
-		}
-		trim_line(out);
-	}
-	text_addf(out, "\n%s", text_string(&table->notes));
 }
 
 /* All heads of a column in one line. */
@@ -168,7 +75,7 @@ static void print_markdown(const struct table *table, struct text *out)
 		for (size_t c = 0; c < table->column_count; c++) {
 			struct text cell = {0};
 
-			add_cell(&table->columns[c], &table->cells[row * table->column_count + c], &cell);
+			format_cell(&table->columns[c], &table->cells[row * table->column_count + c], &cell);
 			add_markdown(out, text_string(&cell));
 			text_clean(&cell);
 		}
@@ -226,7 +133,7 @@ static void add_csv_cell(
 	if (number) {
 		add_field(out, text_real(cell->value, buffer), first);
 	} else {
-		add_cell(column, cell, &words);
+		format_cell(column, cell, &words);
 		add_field(out, text_string(&words), first);
 		text_clean(&words);
 	}
@@ -246,7 +153,7 @@ static void print_csv(const struct table *table, struct text *out)
 }
 
 static const struct table_format formats[] = {
-	{"text", false, print_text},
+	{"text", false, format_text},
 	{"markdown", false, print_markdown},
 	{"csv", true, print_csv},
 };

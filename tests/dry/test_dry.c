@@ -1,5 +1,4 @@
 /* The dry model as a whole: what it conserves, where it rests, and how it fails. */
-#include <cmocka.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -7,6 +6,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "dry/dry.h"
 

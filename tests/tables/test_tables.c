@@ -182,18 +182,18 @@ static void assert_table(
 
 static void a_table_has_published_values_beside_ours(void **state)
 {
-	struct experiment e =
-		read_experiment("title: Ours and theirs\n"
-						"source: P1 Table 0\n"
-						"base: base.yaml\n"
-						"runs:\n"
-						"  - {layers: 20, n_ini_guess: [0, 10]}\n"
-						"  - {layers: 8, n_ini_guess: [0, 4]}\n"
-						"tables:\n"
-						"  - {name: t, rows: layers, columns: n_ini_guess,\n"
-						"     metric: [iterations, cpu-seconds, speed-up], baseline: {n_ini_guess: 0}}\n"
-						"published:\n"
-						"  t: [[[431, 594.2, null], [71, 183.2, 3.24], null], [null, null, null]]\n");
+	struct experiment e = read_experiment(
+		"title: Ours and theirs\n"
+		"source: P1 Table 0\n"
+		"base: base.yaml\n"
+		"runs:\n"
+		"  - {layers: 20, n_ini_guess: [0, 10]}\n"
+		"  - {layers: 8, n_ini_guess: [0, 4]}\n"
+		"tables:\n"
+		"  - {name: t, rows: layers, columns: n_ini_guess,\n"
+		"     metric: [iterations, cpu-seconds, speed-up], baseline: {n_ini_guess: 0}}\n"
+		"published:\n"
+		"  t: [[[431, 594.2, null], [71, 183.2, 3.24], null], [null, null, null]]\n");
 
 	(void)state;
 	for (size_t i = 0; i < e.run_count; i++) {
