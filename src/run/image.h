@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "talus/error.h"
 
@@ -14,6 +15,9 @@ int image_create(size_t payload, struct image **out, struct error *err);
 
 /* Begin with a copy of the image of a run file, to change its attributes. EX_SOFTWARE. */
 int image_reopen(const unsigned char *bytes, size_t size, struct image **out, struct error *err);
+
+/* Let HDF5 open a copy of an image. Returns its identifier (hid_t), negative when it is none. */
+int64_t image_open(const unsigned char *bytes, size_t size, bool writable);
 
 /* After one of these fails the others do nothing, and image_finish says so. */
 

@@ -7,13 +7,14 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "run/image.h"
 #include "run/run_file_parts.h"
 #include "run/trailer.h"
 
 struct run_file {
 	unsigned char *bytes; /* the image and what is behind it */
 	size_t size;          /* of the image */
-	hid_t id;             /* the image, opened by HDF5, which reads `bytes` in place */
+	hid_t id;             /* the image, opened by HDF5 */
 	struct run_summary summary;
 	char *path;
 };
@@ -108,9 +109,7 @@ int run_file_open(const char *path, struct run_file **out, const char **warning,
 	}
 	if (file_read(path, &file->bytes, &size, err) != 0 || verify(file, size, &trailer, err) != 0)
 		goto failed;
-	(void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-	file->id = H5LTopen_file_image(
-		file->bytes, file->size, H5LT_FILE_IMAGE_DONT_COPY | H5LT_FILE_IMAGE_DONT_RELEASE);
+	file->id = image_open(file->bytes, file->size, false);
 	if (file->id < 0) {
 		error_at(err, EX_DATAERR, path, 0, 0, "is not a run file: HDF5 cannot open it");
 		goto failed;

@@ -2,10 +2,10 @@
 # shellcheck source=tests/cli/small.bash
 source "$TALUS_ROOT/tests/cli/small.bash"
 write_small small.yaml
-long=(--set domain.cells=400 --set layers=10)
+long=(--set domain.cells=400 --set layers=10 --set checkpoint.every_steps=1)
 for signal in TERM INT USR1; do
 	talus run small.yaml "${long[@]}" -o stopped-$signal 2>message &
-	while ! grep -qs 'started at step 0' stopped-$signal/run.log; do sleep 0.01; done
+	while [ ! -e stopped-$signal/run.previous.h5 ]; do sleep 0.01; done
 	kill -$signal $!
 	wait $!
 	echo "$signal: $?"
