@@ -8,7 +8,7 @@ wait_for 30 begun 2 results/study || echo "two runs never ran"
 kill -INT $!
 wait $!
 echo "exit $?"
-mask out
+mask out | sort
 cat err
 none_running study.yaml || echo "a run was left behind"
 talus campaign status study.yaml | awk 'NR > 1 {print $2}' | sort | uniq -c
