@@ -9,8 +9,8 @@ double clock_cpu(void);  /* CPU time of this process, all threads, s */
 enum { CLOCK_STAMP_SIZE = 24 };
 char *clock_stamp(char buffer[CLOCK_STAMP_SIZE]);
 
-/* A duration for people: "4.2 s", "3 min 05 s", "2 h 07 min". Returns `buffer`. */
+/* A duration in s for people: "4.2 s", "3 min 05 s", "2 h 07 min". Returns `buffer`. */
 enum { CLOCK_SPAN_SIZE = 32 };
-char *clock_span(double seconds, char buffer[CLOCK_SPAN_SIZE]);
+char *clock_span(double span, char buffer[CLOCK_SPAN_SIZE]);
 
 #endif

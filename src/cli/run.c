@@ -31,7 +31,8 @@ static const char help[] =
 struct run_command {
 	struct command_settings settings;
 	struct run_options run;
-	const char *folder, *file;
+	const char *folder; /* NULL: the default */
+	const char *file;   /* NULL: only help is asked for */
 	bool help;
 };
 
@@ -123,11 +124,11 @@ static int run_main(int argc, char **argv)
 	struct text out = {0};
 	int code = read_options(argc, argv, &command);
 
-	if (code == 0 && command.help) {
+	if (code == 0 && command.file) {
+		code = execute(&command);
+	} else if (code == 0) {
 		text_add(&out, help);
 		code = command_print(&out);
-	} else if (code == 0) {
-		code = execute(&command);
 	}
 	command_settings_clean(&command.settings);
 	return code;

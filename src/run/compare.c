@@ -49,6 +49,14 @@ static void add_place(struct text *out, const struct dataset *data, size_t index
 	text_add(out, data->rank ? "]" : "");
 }
 
+static uint64_t bits(double value)
+{
+	uint64_t result;
+
+	memcpy(&result, &value, sizeof result);
+	return result;
+}
+
 static void compare_values(
 	const char *path, const struct dataset *a, const struct dataset *b, struct text *out)
 {
@@ -69,7 +77,7 @@ static void compare_values(
 		return;
 	}
 	for (size_t i = count; i-- > 0;)
-		if (memcmp(&a->values[i], &b->values[i], sizeof *a->values) != 0) {
+		if (bits(a->values[i]) != bits(b->values[i])) {
 			different++;
 			where = i;
 		}

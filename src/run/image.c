@@ -33,20 +33,25 @@ static hid_t dataset_properties(void)
 	return list;
 }
 
-static int image_new(struct image **out, struct error *err)
+/* NULL when out of memory. */
+static struct image *image_new(struct error *err)
 {
-	*out = calloc(1, sizeof **out);
-	if (!*out)
-		return error_memory(err, sizeof **out);
+	struct image *image = calloc(1, sizeof *image);
+
+	if (!image) {
+		(void)error_memory(err, sizeof *image);
+		return NULL;
+	}
 	(void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-	(*out)->file = -1;
-	(*out)->creation = dataset_properties();
-	(void)good(*out, (*out)->creation);
-	return 0;
+	image->file = -1;
+	image->creation = dataset_properties();
+	(void)good(image, image->creation);
+	return image;
 }
 
 static int image_begun(struct image *image, struct image **out, struct error *err)
 {
+	*out = image;
 	if (!image->failed && image->file >= 0)
 		return 0;
 	if (image->file >= 0)
@@ -60,10 +65,11 @@ static int image_begun(struct image *image, struct image **out, struct error *er
 int image_create(size_t payload, struct image **out, struct error *err)
 {
 	hid_t access, creation;
-	struct image *image;
+	struct image *image = image_new(err);
 
-	TRY(image_new(out, err));
-	image = *out;
+	*out = NULL;
+	if (!image)
+		return -1;
 	access = H5Pcreate(H5P_FILE_ACCESS);
 	creation = H5Pcreate(H5P_FILE_CREATE);
 	/* Grown once: the metadata of a run are some 100 kB. Names are listed in the order of creation.
@@ -83,10 +89,14 @@ int image_create(size_t payload, struct image **out, struct error *err)
 
 int image_reopen(const unsigned char *bytes, size_t size, struct image **out, struct error *err)
 {
-	TRY(image_new(out, err));
+	struct image *image = image_new(err);
+
+	*out = NULL;
+	if (!image)
+		return -1;
 	/* without DONT_COPY the buffer is only read */
-	(*out)->file = H5LTopen_file_image((void *)bytes, size, H5LT_FILE_IMAGE_OPEN_RW);
-	return image_begun(*out, out, err);
+	image->file = H5LTopen_file_image((void *)bytes, size, H5LT_FILE_IMAGE_OPEN_RW);
+	return image_begun(image, out, err);
 }
 
 /* An attribute of any type; one that exists is replaced. */

@@ -45,7 +45,7 @@ int recorder_create(const struct model *model, const struct config *config, cons
 
 		field->size = profile_size(r, &model->profiles[p]);
 		most = field->size > most ? field->size : most;
-		field->before = malloc(field->size * sizeof *field->before);
+		field->before = malloc((field->size + 1) * sizeof *field->before);
 		if (!field->before)
 			goto failed;
 	}

@@ -39,6 +39,33 @@ static int summarise(
 	return result;
 }
 
+/* What status.yaml would say, from the content of the run file. */
+static void read_content(const char *folder, struct run_report *report)
+{
+	struct run_file *file = NULL;
+	struct text warning = {0}, config_text = {0}, reason = {0};
+	struct error ignored = {0};
+	struct config config;
+	double attempts;
+
+	if (run_file_open_newest(folder, &file, &warning, &ignored) != 0)
+		goto done;
+	if (run_file_real(file, "attempts", &attempts, &ignored) == 0 && attempts < 1e9)
+		report->attempts = (int)attempts;
+	(void)run_file_real(file, "cpu_seconds", &report->cpu_seconds, &ignored);
+	if (run_file_text(file, "config", &config_text, &ignored) == 0 &&
+		config_parse(
+			&config, text_string(&config_text), config_text.length, folder, NULL, 0, &ignored) == 0)
+		report->end = config.time.end;
+	if (run_file_text(file, "reason", &reason, &ignored) == 0)
+		(void)snprintf(report->reason, sizeof report->reason, "%s", text_string(&reason));
+done:
+	run_file_close(file);
+	text_clean(&warning);
+	text_clean(&config_text);
+	text_clean(&reason);
+}
+
 /* State and simulated time by the run file, which wins over status.yaml. */
 static void read_run_file(const char *folder, struct run_report *report)
 {
@@ -74,8 +101,8 @@ static bool is_running(const char *folder)
 void run_report_read(const char *folder, struct run_report *report)
 {
 	struct run_report status = {.end = NAN, .wall_left = NAN};
+	bool told = status_read(folder, &status);
 
-	(void)status_read(folder, &status);
 	*report = status;
 	report->state = RUN_STATE_PENDING;
 	if (is_running(folder)) {
@@ -86,4 +113,6 @@ void run_report_read(const char *folder, struct run_report *report)
 	}
 	report->wall_left = NAN;
 	read_run_file(folder, report);
+	if (!told || (report->state == RUN_STATE_FAILED && !*report->reason))
+		read_content(folder, report);
 }

@@ -30,21 +30,21 @@ static bool fails(void)
 	return deed == NO_SPACE;
 }
 
-ssize_t write(int fd, const void *bytes, size_t count)
+ssize_t write(int fd, const void *buf, size_t n)
 {
 	if (happens()) {
 		/* half of it reaches the disk first */
 		if (deed == DIE) {
-			(void)syscall(SYS_write, fd, bytes, count / 2);
+			(void)syscall(SYS_write, fd, buf, n / 2);
 			(void)raise(SIGKILL);
 		}
-		if (deed == SHORT_WRITE && count > 1)
-			return syscall(SYS_write, fd, bytes, count / 2);
+		if (deed == SHORT_WRITE && n > 1)
+			return syscall(SYS_write, fd, buf, n / 2);
 		errno = deed == INTERRUPT ? EINTR : ENOSPC;
 		if (deed != SHORT_WRITE)
 			return -1;
 	}
-	return syscall(SYS_write, fd, bytes, count);
+	return syscall(SYS_write, fd, buf, n);
 }
 
 /* What a process has written outlives it, so that nothing has to reach the disk here. */
@@ -54,19 +54,19 @@ int fsync(int fd)
 	return fails() ? -1 : 0;
 }
 
-int linkat(int from_folder, const char *from, int to_folder, const char *to, int flags)
+int linkat(int fromfd, const char *from, int tofd, const char *to, int flags)
 {
-	return fails() ? -1 : (int)syscall(SYS_linkat, from_folder, from, to_folder, to, flags);
+	return fails() ? -1 : (int)syscall(SYS_linkat, fromfd, from, tofd, to, flags);
 }
 
-int renameat(int from_folder, const char *from, int to_folder, const char *to)
+int renameat(int oldfd, const char *old, int newfd, const char *new)
 {
-	return fails() ? -1 : (int)syscall(SYS_renameat, from_folder, from, to_folder, to);
+	return fails() ? -1 : (int)syscall(SYS_renameat, oldfd, old, newfd, new);
 }
 
-int unlinkat(int folder_fd, const char *name, int flags)
+int unlinkat(int fd, const char *name, int flag)
 {
-	return fails() ? -1 : (int)syscall(SYS_unlinkat, folder_fd, name, flags);
+	return fails() ? -1 : (int)syscall(SYS_unlinkat, fd, name, flag);
 }
 
 static const char settings[] = "checkpoint.every_steps=15;time.end=0.5";

@@ -124,6 +124,23 @@ static void a_failure_keeps_the_checkpoint_and_says_when_and_why(void **state)
 	assert_contains(report.reason, "negative thickness");
 }
 
+static void the_state_is_known_without_the_status_file(void **state)
+{
+	struct config config = logistic_config("");
+	struct run_report report;
+	struct error err = {0};
+
+	(void)state;
+	logistic.fail = 25;
+	assert_int_equal(execute(&config, "a", false, &err), -1);
+	assert_int_equal(unlink(in_folder("a/status.yaml")), 0);
+	report = report_of("a");
+	assert_int_equal(report.state, RUN_STATE_FAILED);
+	assert_int_equal(report.attempts, 1);
+	assert_true(report.end == 1);
+	assert_contains(report.reason, "negative thickness");
+}
+
 static void a_failed_run_starts_anew_only_when_told(void **state)
 {
 	struct config config = logistic_config("");
@@ -225,6 +242,7 @@ int main(void)
 		TEST(checkpoint_keys_are_not_another_config),
 		TEST(another_numerics_version_is_refused),
 		TEST(a_failure_keeps_the_checkpoint_and_says_when_and_why),
+		TEST(the_state_is_known_without_the_status_file),
 		TEST(a_failed_run_starts_anew_only_when_told),
 		TEST(a_time_step_that_is_no_number_ends_the_run),
 		TEST(a_locked_run_says_by_whom),

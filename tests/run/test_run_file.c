@@ -125,6 +125,7 @@ static void what_is_no_run_file_is_refused(void **state)
 /* An image that is no HDF5, with a digest that is right. */
 static void a_right_digest_over_nonsense_is_no_crash(void **state)
 {
+	static const unsigned char signature[] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n', 0};
 	unsigned char bytes[512 + TRAILER_SIZE];
 	const struct file_part part = {bytes, sizeof bytes};
 	const struct file_place place = {.folder = in_folder("."), .name = "forged"};
@@ -134,7 +135,7 @@ static void a_right_digest_over_nonsense_is_no_crash(void **state)
 	(void)state;
 	for (size_t i = 0; i < 512; i++)
 		bytes[i] = (unsigned char)(i * 37);
-	memcpy(bytes, "\x89HDF\r\n\x1a\n\0", 9);
+	memcpy(bytes, signature, sizeof signature);
 	trailer_write(&summary, bytes, 512, bytes + 512);
 	assert_int_equal(file_replace(&place, &part, 1, &err), 0);
 	assert_int_equal(try_open("forged", NULL), EX_DATAERR);
