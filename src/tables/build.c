@@ -95,7 +95,7 @@ static int measure_runs(struct builder *builder, struct error *err)
 	const struct layout *layout = builder->layout;
 	size_t runs = builder->experiment->run_count, measures = layout->measure_count;
 
-	builder->values = malloc(runs * measures * sizeof *builder->values);
+	builder->values = calloc(runs * measures, sizeof *builder->values);
 	if (!builder->values)
 		return error_memory(err, runs * measures * sizeof *builder->values);
 	for (size_t i = 0; i < runs * measures; i++)
