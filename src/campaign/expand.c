@@ -14,82 +14,79 @@ struct axis {
 	size_t count, chosen;
 };
 
-/* "key=value" texts for config_parse, and where each was written. */
+enum { LAYERS = 4 }; /* of settings: of the file, of the run, of the command line, of the caller */
+
+/* "key=value" texts for config_parse, layer by layer. */
 struct overlay {
-	char **texts;                   /* [count] */
-	const struct setting **sources; /* [count] */
+	const struct setting_list *layers[LAYERS];
+	char **texts; /* [count] */
 	int count;
 };
 
 static void overlay_clean(struct overlay *overlay)
 {
-	for (int i = 0; i < overlay->count; i++)
+	for (int i = 0; overlay->texts && i < overlay->count; i++)
 		free(overlay->texts[i]);
 	free(overlay->texts);
-	free(overlay->sources);
 }
 
-static int overlay_fill(
-	struct overlay *overlay, const struct setting_list *const lists[4], struct error *err)
+static int overlay_write(struct overlay *overlay, struct error *err)
 {
 	size_t total = 0;
 
-	for (int l = 0; l < 4; l++)
-		total += lists[l]->count;
+	for (int l = 0; l < LAYERS; l++)
+		total += overlay->layers[l]->count;
 	overlay->texts = calloc(total + 1, sizeof *overlay->texts);
-	overlay->sources = calloc(total + 1, sizeof *overlay->sources);
-	if (!overlay->texts || !overlay->sources)
+	if (!overlay->texts)
 		return error_memory(err, (total + 1) * sizeof *overlay->texts);
-	for (int l = 0; l < 4; l++)
-		for (size_t i = 0; i < lists[l]->count; i++) {
-			const struct setting *setting = &lists[l]->items[i];
-			char **text = &overlay->texts[overlay->count];
+	for (int l = 0; l < LAYERS; l++)
+		for (size_t i = 0; i < overlay->layers[l]->count; i++) {
+			const struct setting *setting = &overlay->layers[l]->items[i];
+			char *text;
 
-			if (asprintf(text, "%s=%s", setting->key, setting->value) < 0) {
-				*text = NULL;
+			if (asprintf(&text, "%s=%s", setting->key, setting->value) < 0)
 				return error_memory(err, strlen(setting->key) + strlen(setting->value));
-			}
-			overlay->sources[overlay->count++] = setting;
+			overlay->texts[overlay->count++] = text;
 		}
 	return 0;
 }
 
 /* A config error that cites `--set key=value` gets the place where the experiment says so: the last
  * setting of that text is the one in force. Those of the command line stay as they are. */
-static void cite_source(
-	const struct experiment *experiment, const struct overlay *overlay, struct error *err)
+static void cite_place(
+	const struct overlay *overlay, const struct experiment *experiment, struct error *err)
 {
 	static const char option[] = "--set ";
 	char shown[256 - sizeof option + 1]; /* as much as config.c shows */
+	int text = overlay->count;
 
 	if (strncmp(err->file, option, strlen(option)) != 0)
 		return;
-	for (int i = overlay->count - 1; i >= 0; i--) {
-		const struct setting *source = overlay->sources[i];
+	for (int l = LAYERS; l-- > 0;)
+		for (size_t i = overlay->layers[l]->count; i-- > 0;) {
+			const struct setting *setting = &overlay->layers[l]->items[i];
 
-		(void)text_excerpt(overlay->texts[i], shown, sizeof shown);
-		if (!source->line || strcmp(err->file + strlen(option), shown) != 0)
-			continue;
-		(void)snprintf(err->file, sizeof err->file, "%s", experiment->path);
-		err->line = source->line;
-		err->column = source->column;
-		return;
-	}
+			(void)text_excerpt(overlay->texts[--text], shown, sizeof shown);
+			if (!setting->line || strcmp(err->file + strlen(option), shown) != 0)
+				continue;
+			(void)snprintf(err->file, sizeof err->file, "%s", experiment->path);
+			err->line = setting->line;
+			err->column = setting->column;
+			return;
+		}
 }
 
 static int parse(const struct experiment *experiment, const struct setting_list *settings,
 	const struct setting_list *more, struct config *config, struct error *err)
 {
-	const struct setting_list *const lists[4] = {
-		&experiment->set, settings, &experiment->overrides, more};
-	struct overlay overlay = {0};
-	int result = -1;
+	struct overlay overlay = {.layers = {&experiment->set, settings, &experiment->overrides, more}};
+	int result = overlay_write(&overlay, err);
 
-	if (!overlay_fill(&overlay, lists, err))
+	if (!result)
 		result = config_parse(config, experiment->base_text, experiment->base_length,
 			experiment->base, (const char *const *)overlay.texts, overlay.count, err);
-	if (result)
-		cite_source(experiment, &overlay, err);
+	if (result && overlay.texts && err->code == EX_DATAERR)
+		cite_place(&overlay, experiment, err);
 	overlay_clean(&overlay);
 	return result;
 }

@@ -77,7 +77,18 @@ static void tell_ended(void *context, const struct campaign *campaign, const str
 	(void)fflush(stdout);
 }
 
-/* A failed run, its reason, and the end of its log. */
+/* The lines of `log`, set off from what we say ourselves. */
+static void print_log(const char *log)
+{
+	while (*log) {
+		int length = (int)strcspn(log, "\n");
+
+		(void)fprintf(stderr, "  %.*s\n", length, log);
+		log += length + (log[length] == '\n');
+	}
+}
+
+/* A failed run and the end of its log, which has the reason; without a log, the reason. */
 static void tell_failure(const struct task *task)
 {
 	struct text log = {0};
@@ -87,10 +98,13 @@ static void tell_failure(const struct task *task)
 		(void)fprintf(stderr, " (signal %d: %s)", task->code - 128, strsignal(task->code - 128));
 	else if (task->code)
 		(void)fprintf(stderr, " (exit code %d)", task->code);
-	(void)fprintf(stderr, "%s%s\n", task->report.reason[0] ? ": " : "", task->report.reason);
 	campaign_log_end(task->run, LOG_LINES, &log);
-	if (log.length)
-		(void)fprintf(stderr, "the end of %s/run.log:\n%s", task->run->folder, text_string(&log));
+	if (log.length) {
+		(void)fprintf(stderr, "; the end of %s/run.log:\n", task->run->folder);
+		print_log(text_string(&log));
+	} else {
+		(void)fprintf(stderr, ": %s\n", task->report.reason);
+	}
 	text_clean(&log);
 }
 

@@ -24,7 +24,7 @@ struct builder {
 static void tell_missing(
 	struct builder *builder, const struct experiment_run *run, const char *why, const char *reason)
 {
-	text_addf(&builder->table->missing, "table '%s': run %s %s%s%s\n", builder->table->name,
+	text_addf(&builder->table->missing, "table '%s': run %s: %s%s%s\n", builder->table->name,
 		run->id, why, *reason ? ": " : "", reason);
 }
 
@@ -39,19 +39,14 @@ static struct run_file *open_run(
 
 	run_report_read(run->folder, &report);
 	if (report.state != RUN_STATE_COMPLETE) {
-		if (tell) {
-			struct text why = {0};
-
-			text_addf(&why, "is %s", run_state_name(report.state));
-			tell_missing(builder, run, text_string(&why), report.reason);
-			text_clean(&why);
-		}
+		if (tell)
+			tell_missing(builder, run, run_state_name(report.state), report.reason);
 		return NULL;
 	}
 	if (run_file_open_newest(run->folder, &file, &warning, &err) && tell) {
 		char message[sizeof err.text + sizeof err.file + 32];
 
-		tell_missing(builder, run, "cannot be read", error_format(&err, message, sizeof message));
+		tell_missing(builder, run, "damaged", error_format(&err, message, sizeof message));
 	}
 	if (file && warning.length)
 		text_addf(&builder->table->notes, "%s: %s\n", run->id, text_string(&warning));
@@ -100,7 +95,7 @@ static int measure_runs(struct builder *builder, struct error *err)
 	const struct layout *layout = builder->layout;
 	size_t runs = builder->experiment->run_count, measures = layout->measure_count;
 
-	builder->values = malloc(runs * measures * sizeof *builder->values);
+	builder->values = calloc(runs * measures, sizeof *builder->values);
 	if (!builder->values)
 		return error_memory(err, runs * measures * sizeof *builder->values);
 	for (size_t i = 0; i < runs * measures; i++)

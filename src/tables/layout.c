@@ -67,8 +67,10 @@ static int label_make(const struct layout *layout, const struct experiment_run *
 	struct text identity = {0};
 
 	label->parts = calloc(keys->count + 1, sizeof *label->parts);
-	if (!label->parts)
-		return error_memory(err, (keys->count + 1) * sizeof *label->parts);
+	if (!label->parts) {
+		(void)error_memory(err, (keys->count + 1) * sizeof *label->parts);
+		return -1;
+	}
 	text_add(&identity, "");
 	for (size_t i = 0; i < keys->count; i++) {
 		struct text value = {0};
@@ -76,7 +78,8 @@ static int label_make(const struct layout *layout, const struct experiment_run *
 		if (config_value(&run->config, keys->items[i].text, &value, err)) {
 			text_clean(&value);
 			text_clean(&identity);
-			return place_error(layout, &keys->items[i], err);
+			(void)place_error(layout, &keys->items[i], err);
+			return -1;
 		}
 		text_addf(&identity, "%s\n", text_string(&value));
 		if (part_text(layout, run, keys->items[i].text, &label->parts[i]))
@@ -87,7 +90,10 @@ static int label_make(const struct layout *layout, const struct experiment_run *
 		text_clean(&value);
 	}
 	label->identity = identity.data;
-	return identity.failed ? error_memory(err, identity.length) : 0;
+	if (identity.data && !identity.failed)
+		return 0;
+	(void)error_memory(err, identity.length);
+	return -1;
 }
 
 /* The index of the run's label, added when it is new. */

@@ -21,11 +21,12 @@ static int read_values(
 	struct run_file *file, const char *name, struct dataset *data, struct error *err)
 {
 	TRY(run_file_dataset(file, name, data, err));
-	if (dataset_count(data))
+	if (data->values && dataset_count(data))
 		return 0;
 	free(data->values);
 	data->values = NULL;
-	return error_set(err, EX_DATAERR, "dataset '%s' is empty", name);
+	(void)error_set(err, EX_DATAERR, "dataset '%s' is empty", name);
+	return -1;
 }
 
 static int series_greatest(
@@ -150,9 +151,10 @@ static int read_thickness(
 	*values = NULL;
 	TRY(find_profile(file, time, &row, err));
 	TRY(read_values(file, "h", &h, err));
-	if (h.rank != 2 || row >= h.extent[0]) {
+	if (!h.values || h.rank != 2 || row >= h.extent[0]) {
 		free(h.values);
-		return error_set(err, EX_DATAERR, "dataset 'h' is not profile_time by x");
+		(void)error_set(err, EX_DATAERR, "dataset 'h' is not profile_time by x");
+		return -1;
 	}
 	*cells = h.extent[1];
 	memmove(h.values, h.values + row * *cells, *cells * sizeof *h.values);
@@ -165,7 +167,7 @@ static int read_thickness(
 static int difference(const struct sample *sample, int power, double *out, struct error *err)
 {
 	double *h = NULL, *reference = NULL, above = 0, apart = 0;
-	size_t cells, reference_cells;
+	size_t cells = 0, reference_cells = 0;
 	int result = -1;
 
 	if (read_thickness(sample->file, sample->at, &h, &cells, err) ||

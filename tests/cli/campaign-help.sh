@@ -1,0 +1,1 @@
+talus campaign --help

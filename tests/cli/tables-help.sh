@@ -1,0 +1,2 @@
+talus-tables --help
+talus tables --help | cmp - <(talus-tables --help)
