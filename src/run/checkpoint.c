@@ -144,7 +144,7 @@ int checkpoint_fail(struct attempt *attempt, const char *reason, struct error *e
 	struct run_summary summary;
 	struct text warning = {0};
 	struct image *image;
-	const unsigned char *bytes;
+	unsigned char *bytes;
 	size_t size;
 	int result = -1;
 

@@ -98,22 +98,22 @@ int image_create(size_t payload, struct image **out, struct error *err)
 }
 
 /* Not H5LTopen_file_image: it leaks a few bytes for every image (1.10.8). */
-int64_t image_open(const unsigned char *bytes, size_t size, bool writable)
+int64_t image_open(unsigned char *bytes, size_t size, bool writable)
 {
 	hid_t access = H5Pcreate(H5P_FILE_ACCESS), file = -1;
 	char name[NAME_SIZE];
 
 	(void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-	/* the property list takes a copy, and the buffer is only read */
+	/* the property list takes a copy: `bytes` are only read */
 	if (H5Pset_fapl_core(access, 1U << 18, false) >= 0 &&
-		H5Pset_file_image(access, (void *)(uintptr_t)bytes, size) >= 0)
+		H5Pset_file_image(access, bytes, size) >= 0)
 		file = H5Fopen(
 			image_name(bytes, writable, name), writable ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access);
 	(void)H5Pclose(access);
 	return file;
 }
 
-int image_reopen(const unsigned char *bytes, size_t size, struct image **out, struct error *err)
+int image_reopen(unsigned char *bytes, size_t size, struct image **out, struct error *err)
 {
 	struct image *image = image_new(err);
 

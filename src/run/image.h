@@ -14,10 +14,10 @@ struct image;
 int image_create(size_t payload, struct image **out, struct error *err);
 
 /* Begin with a copy of the image of a run file, to change its attributes. EX_SOFTWARE. */
-int image_reopen(const unsigned char *bytes, size_t size, struct image **out, struct error *err);
+int image_reopen(unsigned char *bytes, size_t size, struct image **out, struct error *err);
 
 /* Let HDF5 open a copy of an image. Returns its identifier (hid_t), negative when it is none. */
-int64_t image_open(const unsigned char *bytes, size_t size, bool writable);
+int64_t image_open(unsigned char *bytes, size_t size, bool writable);
 
 /* After one of these fails the others do nothing, and image_finish says so. */
 

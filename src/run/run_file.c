@@ -158,7 +158,7 @@ const struct run_summary *run_file_summary(const struct run_file *file)
 	return &file->summary;
 }
 
-const unsigned char *run_file_image(const struct run_file *file, size_t *size)
+unsigned char *run_file_image(const struct run_file *file, size_t *size)
 {
 	*size = file->size;
 	return file->bytes;

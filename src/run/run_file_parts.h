@@ -18,7 +18,7 @@ int run_file_open_any(
 bool run_file_is_newest(const struct run_file *file);
 
 /* The HDF5 image, owned by `file`. */
-const unsigned char *run_file_image(const struct run_file *file, size_t *size);
+unsigned char *run_file_image(const struct run_file *file, size_t *size);
 
 /* The path of every dataset, sorted, one a line. */
 int run_file_names(struct run_file *file, struct text *out, struct error *err);
