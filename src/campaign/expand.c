@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "campaign/reader.h"
+#include "campaign/setting.h"
 #include "talus/text.h"
 
 /* The values of one key in an entry of `runs`. */
@@ -213,7 +214,7 @@ static int add_entry(
 				 : add_product(reader, experiment, entry, axes, leaves.count);
 done:
 	free(axes);
-	leaf_list_clean(&leaves);
+	reader_leaves_clean(&leaves);
 	return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "campaign/expand.h"
 #include "campaign/reader.h"
+#include "campaign/setting.h"
 
 /* What the entries of an experiment file fill. */
 struct form {

@@ -44,14 +44,9 @@ struct leaf_list {
 };
 
 int reader_leaves(const struct reader *reader, const struct node *node, struct leaf_list *out);
-void leaf_list_clean(struct leaf_list *list);
+void reader_leaves_clean(struct leaf_list *list);
 
 /* A mapping of config keys, each with one value. */
 int reader_settings(const struct reader *reader, const struct node *node, struct setting_list *out);
-
-/* Add a copy of `key` with the value that `node` writes. */
-int setting_list_add(
-	struct setting_list *list, const char *key, const struct node *node, struct error *err);
-void setting_list_clean(struct setting_list *list);
 
 #endif
