@@ -167,7 +167,8 @@ static bool is_sampled(struct recorder *r, const struct recorder_step *step)
 {
 	double every = r->config->output.series_every;
 
-	if (every <= 0)
+	/* finer than any step, and than whole numbers of it can count */
+	if (every <= 0 || step->to / every >= 0x1p53)
 		return true;
 	if (step->to < r->next_sample * every)
 		return step->last;

@@ -87,6 +87,9 @@ static void measure(struct builder *builder, size_t index, struct run_file *file
 	if (metric->value(&sample, value, &err)) {
 		*value = NAN;
 		tell_missing(builder, run, metric->name, err.text);
+	} else if (!isfinite(*value)) {
+		*value = NAN;
+		tell_missing(builder, run, metric->name, "is not a number");
 	}
 }
 

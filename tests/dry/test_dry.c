@@ -468,16 +468,16 @@ static long allocations;
 void *__libc_malloc(size_t bytes);
 void *__libc_calloc(size_t count, size_t bytes);
 
-void *malloc(size_t bytes)
+void *malloc(size_t __size)
 {
 	allocations++;
-	return __libc_malloc(bytes);
+	return __libc_malloc(__size);
 }
 
-void *calloc(size_t count, size_t bytes)
+void *calloc(size_t __nmemb, size_t __size)
 {
 	allocations++;
-	return __libc_calloc(count, bytes);
+	return __libc_calloc(__nmemb, __size);
 }
 
 static void a_step_allocates_nothing(void **state)
