@@ -44,6 +44,8 @@ static int read_option(int option, struct campaign_arguments *arguments, char **
 	case 's':
 		return command_settings_add(&arguments->settings, optarg, &err) ? command_fail(&err) : 0;
 	case 'o':
+		if (!*optarg)
+			return command_usage("campaign", "the folder of -o is empty");
 		arguments->folder = optarg;
 		return 0;
 	case 'e':

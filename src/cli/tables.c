@@ -54,6 +54,8 @@ static int read_option(int option, struct tables_options *options, char **argv)
 	case 't':
 		return command_settings_add(&options->names, optarg, &err) ? command_fail(&err) : 0;
 	case 'o':
+		if (!*optarg)
+			return command_usage("tables", "the folder of -o is empty");
 		options->folder = optarg;
 		return 0;
 	case 'f':

@@ -87,6 +87,18 @@ static int check_domain(
 		reader, "initial.front", front < x_min ? "domain.x_min" : "domain.x_max", -1, err);
 }
 
+/* The rows of P1 (37) tie two faces at either end: fewer cells have no row of their own left. */
+static int check_operator(
+	const struct config *config, const struct field_reader *reader, struct error *err)
+{
+	if (config->pressure_solver.operator_ != OPERATOR_POINTWISE || config->domain.cells >= 4)
+		return 0;
+	(void)error_set(err, EX_DATAERR,
+		"domain.cells: %d is too few for the pointwise operator, which needs 4",
+		config->domain.cells);
+	return field_blame(reader, "domain.cells", "pressure_solver.operator", -1, err);
+}
+
 static int check_rheology(
 	const struct config *config, const struct field_reader *reader, struct error *err)
 {
@@ -121,7 +133,7 @@ static int read_tree(struct config *config, const struct field_source *file,
 	struct setting *list = NULL;
 	int status = -1;
 
-	memset(config, 0, sizeof *config); /* padding too: equal configs are equal bytes */
+	memset(config, 0, sizeof *config);
 	if (count > 0) {
 		list = calloc((size_t)count, sizeof *list);
 		if (!list)
@@ -134,7 +146,7 @@ static int read_tree(struct config *config, const struct field_source *file,
 			goto done;
 	if (field_convert(&reader, config, err) == 0 && check_layers(config, &reader, err) == 0 &&
 		check_domain(config, &reader, err) == 0 && check_rheology(config, &reader, err) == 0 &&
-		check_output(config, &reader, err) == 0)
+		check_output(config, &reader, err) == 0 && check_operator(config, &reader, err) == 0)
 		status = 0;
 done:
 	for (int i = 0; i < count; i++)

@@ -17,8 +17,9 @@ static const struct pressure_operator *const operators[] = {
 static struct dry_parameters parameters(const struct config *config)
 {
 	return (struct dry_parameters){
-		.gc = GRAVITY * cos(config->slope),
-		.tan_slope = tan(config->slope),
+		/* in long double: cos and tan in double are chosen by processor and differ in bits */
+		.gc = GRAVITY * (double)cosl(config->slope),
+		.tan_slope = (double)tanl(config->slope),
 		.rho = config->grains.solid_fraction * config->grains.density,
 		.mu_s = config->rheology.mu_s,
 		.mu_2 = config->rheology.mu_2,

@@ -117,9 +117,14 @@ static int solve(
 	*iterations = done < 0 ? -done : done;
 	if (done >= 0)
 		return 0;
+	double residual = pressure_system_residual(&problem->system);
+	int face = pressure_system_worst_face(&problem->system);
+
 	return error_set(err, EX_FAILED,
-		"the pressure solver (%s, %d layers) did not converge: %d iterations, tolerance %g m2/s2",
-		s->solver->name, problem->layers, -done, s->rule.tolerance);
+		"the pressure solver (%s, %d layers) did not converge at x = %g m: %s after %d iterations, "
+		"tolerance %g m2/s2, relative residual %.1e",
+		s->solver->name, problem->layers, s->grid.x_min + face * s->grid.dx,
+		isfinite(residual) ? "stopped" : "not a number", -done, s->rule.tolerance, residual);
 }
 
 int dry_pressure(struct model_state *s, double dt, struct error *err)

@@ -29,28 +29,51 @@ void pressure_system_clean(struct pressure_system *system)
 	*system = (struct pressure_system){0};
 }
 
+/* What is left of the right side in the row of interface a and face f. */
+static double row_residual(const struct pressure_system *system, int a, int f)
+{
+	size_t k = pressure_system_row(system, a) + (size_t)f;
+	const double *x = pressure_system_x(system, a) + f;
+	const double *down = pressure_system_x(system, a - 1) + f;
+	const double *up = pressure_system_x(system, a + 1) + f;
+
+	return system->rhs[k] - system->lower[k] * x[-1] - system->diagonal[k] * x[0] -
+		   system->upper[k] * x[1] - system->below_lower[k] * down[-1] -
+		   system->below_diagonal[k] * down[0] - system->below_upper[k] * down[1] -
+		   system->above_lower[k] * up[-1] - system->above_diagonal[k] * up[0] -
+		   system->above_upper[k] * up[1];
+}
+
 double pressure_system_residual(const struct pressure_system *system)
 {
 	double residual = 0, scale = 0;
 
-	for (int a = 0; a < system->layers; a++) {
-		size_t row = pressure_system_row(system, a);
-		const double *x = pressure_system_x(system, a);
-		const double *down = pressure_system_x(system, a - 1);
-		const double *up = pressure_system_x(system, a + 1);
-
+	for (int a = 0; a < system->layers; a++)
 		for (int f = 0; f < system->faces; f++) {
-			size_t k = row + (size_t)f;
-			double b = system->rhs[k];
-			double r = b - system->lower[k] * x[f - 1] - system->diagonal[k] * x[f] -
-					   system->upper[k] * x[f + 1] - system->below_lower[k] * down[f - 1] -
-					   system->below_diagonal[k] * down[f] - system->below_upper[k] * down[f + 1] -
-					   system->above_lower[k] * up[f - 1] - system->above_diagonal[k] * up[f] -
-					   system->above_upper[k] * up[f + 1];
+			double r = row_residual(system, a, f);
+			double b = system->rhs[pressure_system_row(system, a) + (size_t)f];
 
 			residual += r * r;
 			scale += b * b;
 		}
-	}
 	return scale > 0 ? sqrt(residual / scale) : 0;
+}
+
+int pressure_system_worst_face(const struct pressure_system *system)
+{
+	double worst = -1;
+	int face = 0;
+
+	for (int a = 0; a < system->layers; a++)
+		for (int f = 0; f < system->faces; f++) {
+			double r = fabs(row_residual(system, a, f));
+
+			if (isnan(r))
+				return f;
+			if (r > worst) {
+				worst = r;
+				face = f;
+			}
+		}
+	return face;
 }

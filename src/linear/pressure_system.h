@@ -46,4 +46,7 @@ static inline double *pressure_system_x(const struct pressure_system *system, in
 /* True relative residual |rhs - A x| / |rhs| in the Euclidean norm; 0 when the right side is 0. */
 double pressure_system_residual(const struct pressure_system *system);
 
+/* The face of the largest residual, or of the first that is not a number: where a solver failed. */
+int pressure_system_worst_face(const struct pressure_system *system);
+
 #endif

@@ -17,7 +17,8 @@ static int choose(const struct attempt *attempt, struct recorder_step *step, str
 	double dt = attempt->model->time_step(attempt->state);
 
 	if (!(dt >= SHORTEST * end) || attempt->time + dt == attempt->time)
-		return error_set(err, EX_FAILED, "the time step has become %g s", dt);
+		return error_set(err, EX_FAILED, "the time step has become %g s: %s (end: %g s)", dt,
+			dt > 0 ? "too short to get to the end" : "the state is not a flow", end);
 	*step = (struct recorder_step){.from = attempt->time, .dt = dt, .to = attempt->time + dt};
 	if (left <= dt) {
 		step->dt = left;

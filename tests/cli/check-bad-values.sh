@@ -81,6 +81,7 @@ domain: {cells: 1}
 domain: {cells: 2000000}
 domain: {cells: 640.0}
 domain: {right: open}
+domain: {cells: 3}\npressure_solver: {operator: pointwise}
 domain: wide
 domain: [640]
 domain:
