@@ -118,12 +118,12 @@ static int solve(
 	if (done >= 0)
 		return 0;
 	double residual = pressure_system_residual(&problem->system);
-	int face = pressure_system_worst_face(&problem->system);
+	double x = s->grid.x_min + pressure_system_worst_face(&problem->system) * s->grid.dx;
 
 	return error_set(err, EX_FAILED,
 		"the pressure solver (%s, %d layers) did not converge at x = %g m: %s after %d iterations, "
 		"tolerance %g m2/s2, relative residual %.1e",
-		s->solver->name, problem->layers, s->grid.x_min + face * s->grid.dx,
+		s->solver->name, problem->layers, round(1e6 * x) / 1e6 + 0.0, /* no -5e-17, no -0 */
 		isfinite(residual) ? "stopped" : "not a number", -done, s->rule.tolerance, residual);
 }
 

@@ -111,10 +111,12 @@ int run_file_open(const char *path, struct run_file **out, const char **warning,
 		goto failed;
 	file->id = image_open(file->bytes, file->size, false);
 	if (file->id < 0) {
-		/* bytes that match their digest are good: falling back would throw them away */
-		error_at(err, trailer ? EX_SOFTWARE : EX_DATAERR, path, 0, 0,
-			trailer ? "is whole, but HDF5 cannot open it (out of memory?)"
-					: "is not a run file: HDF5 cannot open it");
+		/* an image of ours whose digest is right is good: to fall back would throw it away */
+		bool ours = trailer && superblock_length(file->bytes, file->size) == file->size;
+
+		error_at(err, ours ? EX_SOFTWARE : EX_DATAERR, path, 0, 0,
+			ours ? "is whole, but HDF5 cannot open it (out of memory?)"
+				 : "is not a run file: HDF5 cannot open it");
 		goto failed;
 	}
 	if (!trailer && summarise(file, err) != 0)

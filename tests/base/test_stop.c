@@ -38,6 +38,7 @@ static void a_signal_is_remembered(void **state)
 	assert_int_equal(after(SIGTERM, SIGTERM), 10);
 	assert_int_equal(after(SIGUSR1, SIGTERM), 10);
 	assert_int_equal(after(SIGTERM, SIGINT), 10);
+	assert_int_equal(after(SIGTERM, SIGHUP), 10); /* a closed terminal */
 }
 
 static void a_second_interrupt_leaves_at_once(void **state)
@@ -46,10 +47,24 @@ static void a_second_interrupt_leaves_at_once(void **state)
 	assert_int_equal(after(SIGINT, SIGINT), EX_INTERRUPTED);
 }
 
+static void a_hangup_that_was_ignored_stays_ignored(void **state)
+{
+	(void)state;
+	(void)signal(SIGHUP, SIG_IGN); /* as nohup does */
+	assert_int_equal(after(SIGTERM, SIGHUP), 3);
+	(void)signal(SIGHUP, SIG_DFL);
+}
+
+static void a_file_over_the_quota_is_no_signal(void **state)
+{
+	(void)state;
+	assert_int_equal(after(SIGTERM, SIGXFSZ), 3);
+}
+
 static void other_signals_keep_their_meaning(void **state)
 {
 	(void)state;
-	assert_int_equal(after(SIGTERM, SIGHUP), -SIGHUP);
+	assert_int_equal(after(SIGTERM, SIGALRM), -SIGALRM);
 }
 
 int main(void)
@@ -57,6 +72,8 @@ int main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(a_signal_is_remembered),
 		cmocka_unit_test(a_second_interrupt_leaves_at_once),
+		cmocka_unit_test(a_hangup_that_was_ignored_stays_ignored),
+		cmocka_unit_test(a_file_over_the_quota_is_no_signal),
 		cmocka_unit_test(other_signals_keep_their_meaning),
 	};
 

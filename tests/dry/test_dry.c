@@ -414,8 +414,9 @@ static void a_solver_that_does_not_converge_ends_the_step(void **state)
 	(void)state;
 	assert_int_equal(dry_model.step(s, 1e-3, &err), -1);
 	assert_int_equal(err.code, EX_FAILED);
-	assert_string_equal(err.text, "the pressure solver (block-gauss-seidel, 4 layers) did not "
-								  "converge: 2 iterations, tolerance 1e-06 m2/s2");
+	assert_non_null(strstr(err.text,
+		"the pressure solver (block-gauss-seidel, 4 layers) did not converge at x = 0 m: "
+		"stopped after 2 iterations, tolerance 1e-06 m2/s2, relative residual "));
 	dry_model.free(s);
 }
 
