@@ -1,0 +1,45 @@
+/* What the hot loops are written with: vectors of eight, and functions compiled once for every vector
+ * width of this decade, of which the machine's own is taken at run time.
+ *
+ * The bits do not depend on the width: a vector of eight is eight lanes everywhere (two of AVX2, four of
+ * SSE2), products and sums are never fused (-ffp-contract=off), and sums over many values are kept in
+ * eight lanes that are added in one fixed order at the end. A loop that the compiler vectorises by
+ * itself must therefore not reduce. */
+#ifndef TALUS_KERNEL_H
+#define TALUS_KERNEL_H
+
+#include <stddef.h>
+
+/* Before a function: one copy for AVX-512, one for AVX2, one for any x86-64. Under sanitizers the plain
+ * copy alone: they are not ready when the choice is made. */
+#if defined __GNUC__ && !defined __clang__ && defined __x86_64__ &&                                \
+	!defined __SANITIZE_ADDRESS__ && !defined __SANITIZE_THREAD__ && !defined TALUS_PLAIN_KERNELS
+#define KERNEL __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define KERNEL
+#endif
+
+#define KERNEL_PART static inline __attribute__((always_inline)) /* a piece of kernels, inlined */
+
+enum { LANES = 8 };
+
+/* Loaded from and stored to any address of a double. */
+typedef double v8 __attribute__((vector_size(LANES * sizeof(double)), aligned(8), may_alias));
+
+KERNEL_PART v8 v8_load(const double *from)
+{
+	return *(const v8 *)from;
+}
+
+KERNEL_PART void v8_store(double *to, v8 value)
+{
+	*(v8 *)to = value;
+}
+
+/* The eight lanes in one order. */
+KERNEL_PART double v8_sum(v8 v)
+{
+	return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
+
+#endif
