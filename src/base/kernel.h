@@ -26,6 +26,9 @@ enum { LANES = 8 };
 /* Loaded from and stored to any address of a double. */
 typedef double v8 __attribute__((vector_size(LANES * sizeof(double)), aligned(8), may_alias));
 
+#pragma GCC diagnostic ignored                                                                     \
+	"-Wpsabi" /* how vectors are passed: they never are, all is inlined */
+
 KERNEL_PART v8 v8_load(const double *from)
 {
 	return *(const v8 *)from;
