@@ -15,9 +15,10 @@ enum shape_kind { SHAPE_COLUMN };
 enum law_kind { LAW_MU_I };
 enum wave_speed_kind { WAVE_SPEED_FASTEST, WAVE_SPEED_MEAN };
 enum reconstruction_kind { RECONSTRUCTION_STATIC, RECONSTRUCTION_PRINTED };
-enum method_kind { METHOD_BLOCK_GAUSS_SEIDEL };
+enum method_kind { METHOD_BLOCK_GAUSS_SEIDEL, METHOD_CONJUGATE_GRADIENTS };
 enum operator_kind { OPERATOR_SYMMETRIC, OPERATOR_POINTWISE };
 enum start_kind { START_ZERO, START_PREVIOUS };
+enum criterion_kind { CRITERION_RESIDUAL, CRITERION_INCREMENT };
 enum norm_kind { NORM_L1, NORM_L2, NORM_LINF };
 
 /* A short list of numbers, kept inside the config so that a config is a plain value. */
@@ -68,6 +69,8 @@ struct config {
 		int method;         /* enum method_kind */
 		int operator_;      /* enum operator_kind; key `operator` */
 		int start;          /* enum start_kind */
+		int criterion;      /* enum criterion_kind */
+		double residual;    /* true relative residual asked for, 1 */
 		int norm;           /* enum norm_kind */
 		double tolerance;   /* of the increment of a sweep, in p/rho units, m2/s2 */
 		int max_iterations; /* sweeps after which the solver is said not to converge */

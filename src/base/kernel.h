@@ -45,4 +45,18 @@ KERNEL_PART double v8_sum(v8 v)
 	return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
 }
 
+/* Sum of a[i] b[i]: lanes, then what is left over. */
+KERNEL_PART double kernel_dot(const double *a, const double *b, int count)
+{
+	v8 lanes = {0};
+	double rest = 0;
+	int i = 0;
+
+	for (; i + LANES <= count; i += LANES)
+		lanes += v8_load(a + i) * v8_load(b + i);
+	for (; i < count; i++)
+		rest += a[i] * b[i];
+	return v8_sum(lanes) + rest;
+}
+
 #endif

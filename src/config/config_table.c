@@ -37,11 +37,14 @@ static const char *const wave_speeds[] = {
 	[WAVE_SPEED_FASTEST] = "fastest", [WAVE_SPEED_MEAN] = "mean", NULL};
 static const char *const reconstructions[] = {
 	[RECONSTRUCTION_STATIC] = "static", [RECONSTRUCTION_PRINTED] = "printed", NULL};
-static const char *const methods[] = {[METHOD_BLOCK_GAUSS_SEIDEL] = "block-gauss-seidel", NULL};
+static const char *const methods[] = {[METHOD_BLOCK_GAUSS_SEIDEL] = "block-gauss-seidel",
+	[METHOD_CONJUGATE_GRADIENTS] = "conjugate-gradients", NULL};
 static const char *const operators[] = {
 	[OPERATOR_SYMMETRIC] = "symmetric", [OPERATOR_POINTWISE] = "pointwise", NULL};
 static const char *const starts[] = {
 	[START_ZERO] = "zero", [START_PREVIOUS] = "previous", NULL};
+static const char *const criteria[] = {
+	[CRITERION_RESIDUAL] = "residual", [CRITERION_INCREMENT] = "increment", NULL};
 static const char *const norms[] = {
 	[NORM_L1] = "l1", [NORM_L2] = "l2", [NORM_LINF] = "linf", NULL};
 
@@ -107,6 +110,10 @@ static const struct field fields[] = {
 		"discrete operator: symmetric, or pointwise as P1 Appendix A (for its tables)"),
 	CHOICE("pressure_solver.start", pressure_solver.start, 0, "zero", starts,
 		"first guess of the fluctuation where n_ini_guess is 0: zero, or that of the previous step"),
+	CHOICE("pressure_solver.criterion", pressure_solver.criterion, 0, "residual", criteria,
+		"what stops the iteration: the true residual, or the increment of a sweep (P1)"),
+	REAL(pressure_solver.residual, 0, "1", "1e-8", "(0, 1)",
+		"with criterion residual: the relative residual |b - A x|/|b| at which it stops"),
 	CHOICE("pressure_solver.norm", pressure_solver.norm, 0, "l2", norms,
 		"norm of a sweep's increment that stops the iteration"),
 	REAL(pressure_solver.tolerance, 0, "m2/s2", "1e-6 m2/s2", "(0, inf)",

@@ -48,6 +48,8 @@ struct pressure_input {
 
 struct pressure_operator {
 	const char *name;
+	bool symmetric;
+	/* Right side and matrix: bands where the system has them, the cells of a symmetric one. */
 	void (*assemble)(const struct pressure_input *input, struct pressure_system *system);
 };
 
@@ -57,7 +59,7 @@ extern const struct pressure_operator operator_symmetric, operator_pointwise;
 struct projection {
 	int layers;
 	struct pressure_system system;
-	void *scratch; /* of the solver */
+	void *memory;  /* of the solver */
 	double *u, *w; /* layer averages, [layers][stride]; NULL in the full problem */
 };
 

@@ -77,8 +77,12 @@ static size_t layout(struct model_state *s, double *memory)
 
 static int projection_init(struct model_state *s, struct projection *problem, struct error *err)
 {
-	TRY(pressure_system_init(&problem->system, problem->layers, s->grid.faces, err));
-	return s->solver->create(problem->layers, s->grid.faces, &problem->scratch, err);
+	const struct pressure_options options = {.threads = 1};
+
+	TRY(pressure_system_init(
+		&problem->system, problem->layers, s->grid.faces, !s->solver->matrix_free, err));
+	problem->system.symmetric = s->operator_->symmetric;
+	return s->solver->create(problem->layers, s->grid.faces, &options, &problem->memory, err);
 }
 
 static void destroy(struct model_state *s)
@@ -89,7 +93,7 @@ static void destroy(struct model_state *s)
 
 	for (size_t i = 0; i < 2; i++) {
 		pressure_system_clean(&problems[i]->system);
-		s->solver->free(problems[i]->scratch);
+		s->solver->free(problems[i]->memory);
 	}
 	free(s->dry);
 	free(s->memory);
@@ -124,8 +128,11 @@ static int create(const struct config *config, struct model_state **out, struct 
 	s->layers = s->full.layers = config->layers;
 	s->operator_ = operators[config->pressure_solver.operator_];
 	s->solver = pressure_solver_find(config->pressure_solver.method);
-	s->rule = (struct stopping_rule){config->pressure_solver.norm,
-		config->pressure_solver.tolerance, config->pressure_solver.max_iterations};
+	s->rule = (struct stopping_rule){.criterion = config->pressure_solver.criterion,
+		.norm = config->pressure_solver.norm,
+		.tolerance = config->pressure_solver.tolerance,
+		.residual = config->pressure_solver.residual,
+		.max_iterations = config->pressure_solver.max_iterations};
 	s->start_previous = config->pressure_solver.start == START_PREVIOUS;
 	s->coarse.layers = s->par.non_hydrostatic ? config->n_ini_guess : 0;
 	count = layout(s, NULL);

@@ -59,6 +59,7 @@ static void assemble(struct model_state *s, struct projection *problem, double d
 		.rows = s->face,
 	};
 
+	problem->system.cells.dry = s->dry;
 	s->operator_->assemble(&input, &problem->system);
 	for (int f = 0; f < grid->faces; f++)
 		problem->system.weight[f] = 0.5 * (s->h[f] + s->h[f + 1]) * grid->dx / problem->layers;
@@ -112,19 +113,19 @@ static void start(const struct model_state *s, struct pressure_system *system)
 static int solve(
 	struct model_state *s, struct projection *problem, int *iterations, struct error *err)
 {
-	int done = s->solver->solve(&problem->system, &s->rule, problem->scratch);
+	int done =
+		pressure_solver_solve(s->solver, &problem->system, &s->rule, problem->memory, &s->residual);
 
 	*iterations = done < 0 ? -done : done;
 	if (done >= 0)
 		return 0;
-	double residual = pressure_system_residual(&problem->system);
 	double x = s->grid.x_min + pressure_system_worst_face(&problem->system) * s->grid.dx;
 
 	return error_set(err, EX_FAILED,
 		"the pressure solver (%s, %d layers) did not converge at x = %g m: %s after %d iterations, "
-		"tolerance %g m2/s2, relative residual %.1e",
+		"relative residual %.1e",
 		s->solver->name, problem->layers, round(1e6 * x) / 1e6 + 0.0, /* no -5e-17, no -0 */
-		isfinite(residual) ? "stopped" : "not a number", -done, s->rule.tolerance, residual);
+		isfinite(s->residual) ? "stopped" : "not a number", -done, s->residual);
 }
 
 int dry_pressure(struct model_state *s, double dt, struct error *err)
@@ -149,7 +150,6 @@ int dry_pressure(struct model_state *s, double dt, struct error *err)
 		start(s, system);
 	}
 	TRY(solve(s, &s->full, &s->iterations, err));
-	s->residual = pressure_system_residual(system);
 	for (int a = 0; a < s->layers; a++) {
 		double *q = s->q + (size_t)a * faces, *dq = s->dq + (size_t)a * faces;
 		const double *x = pressure_system_x(system, a);

@@ -10,12 +10,14 @@ struct scratch {
 	double *ratio; /* [faces], eliminated upper diagonal */
 };
 
-static int create(int layers, int faces, void **out, struct error *err)
+static int create(
+	int layers, int faces, const struct pressure_options *options, void **out, struct error *err)
 {
 	struct scratch *scratch = malloc(sizeof *scratch);
 	size_t bytes = 2 * (size_t)faces * sizeof(double);
 
 	(void)layers;
+	(void)options;
 	if (!scratch)
 		return error_memory(err, sizeof *scratch);
 	scratch->right = malloc(bytes);
@@ -115,7 +117,9 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 		}
 		if (rule->norm == NORM_L2)
 			error = sqrt(error);
-		if (error < rule->tolerance)
+		if (rule->criterion == CRITERION_RESIDUAL
+				? pressure_system_residual(system) <= rule->residual
+				: error < rule->tolerance)
 			return sweep;
 		if (isnan(error))
 			return -sweep;

@@ -2,9 +2,29 @@
 
 static const struct pressure_solver *const solvers[] = {
 	[METHOD_BLOCK_GAUSS_SEIDEL] = &block_gauss_seidel,
+	[METHOD_CONJUGATE_GRADIENTS] = &conjugate_gradients,
 };
 
 const struct pressure_solver *pressure_solver_find(int method)
 {
 	return solvers[method];
+}
+
+int pressure_solver_solve(const struct pressure_solver *solver, struct pressure_system *system,
+	const struct stopping_rule *rule, void *memory, double *residual)
+{
+	enum { ROUNDS = 4 };
+	int total = 0;
+
+	for (int round = 0; round < ROUNDS; round++) {
+		int done = solver->solve(system, rule, memory);
+
+		*residual = pressure_system_residual(system);
+		if (done < 0)
+			return -(total - done);
+		total += done;
+		if (rule->criterion != CRITERION_RESIDUAL || *residual <= rule->residual)
+			return total;
+	}
+	return -total;
 }

@@ -60,12 +60,13 @@ static int solve(
 {
 	struct pressure_system system;
 	struct error err = {0};
-	struct stopping_rule rule = {norm, tolerance, most};
+	struct stopping_rule rule = {CRITERION_INCREMENT, norm, tolerance, 0, most};
+	struct pressure_options options = {.threads = 1};
 	void *scratch = NULL;
 	int done;
 
-	assert_int_equal(pressure_system_init(&system, layers, faces, &err), 0);
-	assert_int_equal(block_gauss_seidel.create(layers, faces, &scratch, &err), 0);
+	assert_int_equal(pressure_system_init(&system, layers, faces, true, &err), 0);
+	assert_int_equal(block_gauss_seidel.create(layers, faces, &options, &scratch, &err), 0);
 	fill(&system);
 	done = block_gauss_seidel.solve(&system, &rule, scratch);
 	*error = distance(&system);
@@ -130,11 +131,12 @@ static void a_nan_in_the_system_is_not_convergence(void **state)
 	(void)state;
 	for (int norm = NORM_L1; norm <= NORM_LINF; norm++) {
 		struct pressure_system system;
-		struct stopping_rule rule = {norm, 1e-6, 100};
+		struct stopping_rule rule = {CRITERION_INCREMENT, norm, 1e-6, 0, 100};
+		struct pressure_options options = {.threads = 1};
 		void *scratch = NULL;
 
-		assert_int_equal(pressure_system_init(&system, 3, 9, &err), 0);
-		assert_int_equal(block_gauss_seidel.create(3, 9, &scratch, &err), 0);
+		assert_int_equal(pressure_system_init(&system, 3, 9, true, &err), 0);
+		assert_int_equal(block_gauss_seidel.create(3, 9, &options, &scratch, &err), 0);
 		fill(&system);
 		system.rhs[4] = NAN;
 		assert_true(block_gauss_seidel.solve(&system, &rule, scratch) < 0);
@@ -149,7 +151,7 @@ static void a_zero_right_side_has_residual_zero(void **state)
 	struct error err = {0};
 
 	(void)state;
-	assert_int_equal(pressure_system_init(&system, 2, 4, &err), 0);
+	assert_int_equal(pressure_system_init(&system, 2, 4, true, &err), 0);
 	assert_true(pressure_system_residual(&system) == 0);
 	pressure_system_clean(&system);
 }

@@ -1,0 +1,283 @@
+/* Conjugate gradients on the symmetric operator, preconditioned by the operator without its xi terms,
+ * which fast diagonalisation solves exactly. An iteration is four passes over the columns: new residual
+ * and its modes, tridiagonal systems of the modes, new direction, product with the matrix. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "linear/fast_diagonal.h"
+#include "linear/pressure_solver.h"
+
+struct memory {
+	struct fast_diagonal fast;
+	struct columns columns;
+	int threads;
+	double *x, *residual, *direction, *modes; /* columns */
+	double
+		*product;  /* columns: A times the direction, and in between the preconditioned residual */
+	double *sums;  /* [2][groups or blocks, whichever is more] */
+	double *terms; /* [threads][4][stride] */
+	double *block;
+};
+
+/* What one thread does in a pass. */
+struct part {
+	struct memory *m;
+	const struct pressure_system *system;
+	const struct stopping_rule *rule;
+	double factor; /* alpha or beta */
+	int first, last;
+	double *terms;
+};
+
+static size_t layout(struct memory *m, double *block)
+{
+	size_t all = columns_count(&m->columns), stride = m->columns.stride;
+	size_t sums =
+		(size_t)(m->columns.groups > m->columns.blocks ? m->columns.groups : m->columns.blocks);
+	struct {
+		double **part;
+		size_t count;
+	} const parts[] = {{&m->x, all}, {&m->residual, all}, {&m->direction, all}, {&m->modes, all},
+		{&m->product, all}, {&m->sums, 2 * sums}, {&m->terms, 4 * stride * (size_t)m->threads}};
+	size_t at = 0;
+
+	for (size_t i = 0; i < sizeof parts / sizeof *parts; at += parts[i++].count)
+		*parts[i].part = block ? block + at : NULL;
+	return at;
+}
+
+static void destroy(void *memory)
+{
+	struct memory *m = memory;
+
+	if (!m)
+		return;
+	fast_diagonal_clean(&m->fast);
+	free(m->block);
+	free(m);
+}
+
+static int create(
+	int layers, int faces, const struct pressure_options *options, void **out, struct error *err)
+{
+	struct memory *m = calloc(1, sizeof *m);
+	size_t count;
+
+	if (!m)
+		return error_memory(err, sizeof *m);
+	m->columns = columns_make(layers, faces);
+	m->threads = options->threads;
+	count = layout(m, NULL);
+	m->block = calloc(count, sizeof *m->block);
+	if (!m->block || fast_diagonal_init(&m->fast, layers, faces, err) != 0) {
+		destroy(m);
+		return err->code ? -1 : error_memory(err, count * sizeof *m->block);
+	}
+	(void)layout(m, m->block);
+	*out = m;
+	return 0;
+}
+
+/* Do a pass over `count` groups or blocks, shared among the threads. */
+static void pass(struct memory *m, const struct pressure_system *system,
+	const struct stopping_rule *rule, double factor, int count, void (*work)(struct part *part))
+{
+	int threads = m->threads < count ? m->threads : count;
+
+#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
+	for (int t = 0; t < threads; t++) {
+		struct part part = {m, system, rule, factor, (int)((long)count * t / threads),
+			(int)((long)count * (t + 1) / threads), m->terms + 4 * m->columns.stride * (size_t)t};
+
+		work(&part);
+	}
+}
+
+static double total(const double *sums, int count)
+{
+	double sum = 0;
+
+	for (int i = 0; i < count; i++)
+		sum += sums[i];
+	return sum;
+}
+
+/* Where the columns of a group begin, and how many values they are. */
+static size_t group_at(const struct memory *m, int group)
+{
+	return (size_t)group * LANES * m->columns.stride;
+}
+
+/* Right side into the residual; sums: its square. */
+KERNEL static void take_right_side(struct part *part)
+{
+	struct memory *m = part->m;
+
+	columns_from_rows(&m->columns, part->system->rhs, (size_t)part->system->faces, m->residual,
+		part->first, part->last);
+	for (int g = part->first; g < part->last; g++) {
+		const double *r = m->residual + group_at(m, g);
+
+		m->sums[g] = kernel_dot(r, r, LANES * (int)m->columns.stride);
+	}
+}
+
+static void take_start(struct part *part)
+{
+	columns_from_rows(&part->m->columns, pressure_system_x(part->system, 0), part->system->x_stride,
+		part->m->x, part->first, part->last);
+}
+
+static void multiply_start(struct part *part)
+{
+	columns_apply(&part->m->columns, part->system, part->m->x, part->m->product, part->m->sums,
+		part->terms, part->first, part->last);
+}
+
+/* x += alpha p, r -= alpha A p (part->factor: alpha); sums: r r. Then the modes of r. */
+KERNEL static void take_step(struct part *part)
+{
+	struct memory *m = part->m;
+	double alpha = part->factor;
+
+	for (int g = part->first; g < part->last; g++) {
+		size_t at = group_at(m, g);
+		v8 sum = {0};
+
+		for (size_t i = at; i < at + LANES * m->columns.stride; i += LANES) {
+			v8 r = v8_load(m->residual + i) - alpha * v8_load(m->product + i);
+
+			v8_store(m->x + i, v8_load(m->x + i) + alpha * v8_load(m->direction + i));
+			v8_store(m->residual + i, r);
+			sum += r * r;
+		}
+		m->sums[g] = v8_sum(sum);
+		fast_diagonal_transform(&m->fast, m->fast.to_modes, m->residual, m->modes, g, g + 1);
+	}
+}
+
+static void factor_modes(struct part *part)
+{
+	fast_diagonal_factor(&part->m->fast, part->first, part->last);
+}
+
+static void solve_modes(struct part *part)
+{
+	fast_diagonal_solve(&part->m->fast, part->m->modes, part->m->sums, part->first, part->last);
+}
+
+/* p = z + beta p (part->factor: beta). */
+KERNEL static void turn(struct part *part)
+{
+	struct memory *m = part->m;
+	double beta = part->factor;
+
+	for (int g = part->first; g < part->last; g++) {
+		size_t at = group_at(m, g);
+
+		fast_diagonal_transform(&m->fast, m->fast.to_layers, m->modes, m->product, g, g + 1);
+		for (size_t i = at; i < at + LANES * m->columns.stride; i += LANES)
+			v8_store(m->direction + i, v8_load(m->product + i) + beta * v8_load(m->direction + i));
+	}
+}
+
+static void multiply(struct part *part)
+{
+	columns_apply(&part->m->columns, part->system, part->m->direction, part->m->product,
+		part->m->sums, part->terms, part->first, part->last);
+}
+
+static void give_solution(struct part *part)
+{
+	columns_to_rows(&part->m->columns, part->m->x, pressure_system_x(part->system, 0),
+		part->system->x_stride, part->first, part->last);
+}
+
+static bool starts_at_zero(const struct pressure_system *system)
+{
+	for (int a = 0; a < system->layers; a++)
+		for (int f = 0; f < system->faces; f++)
+			if (pressure_system_x(system, a)[f] != 0)
+				return false;
+	return true;
+}
+
+/* Residual and direction for the start at hand. Returns the square of the right side. */
+static double begin(struct memory *m, const struct pressure_system *system)
+{
+	int groups = m->columns.groups;
+	size_t all = columns_count(&m->columns);
+	double square;
+
+	fast_diagonal_prepare(&m->fast, system);
+	pass(m, system, NULL, 0, m->columns.blocks, factor_modes);
+	pass(m, system, NULL, 0, groups, take_right_side);
+	square = total(m->sums, groups);
+	for (size_t i = 0; i < all; i++)
+		m->x[i] = m->direction[i] = m->product[i] = 0;
+	if (starts_at_zero(system))
+		return square;
+	pass(m, system, NULL, 0, groups, take_start);
+	pass(m, system, NULL, 0, groups, multiply_start);
+	for (size_t i = 0; i < all; i++)
+		m->residual[i] -= m->product[i];
+	return square;
+}
+
+/* alpha p in the norm of the rule. */
+static double increment(
+	const struct memory *m, const struct pressure_system *system, int norm, double alpha)
+{
+	double sum = 0;
+
+	for (int f = 0; f < system->faces; f++)
+		for (int a = 0; a < system->layers; a++) {
+			double change = fabs(alpha * m->direction[(size_t)f * m->columns.stride + (size_t)a]);
+
+			if (norm == NORM_LINF)
+				sum = change > sum || isnan(change) ? change : sum;
+			else
+				sum += system->weight[f] * (norm == NORM_L2 ? change * change : change);
+		}
+	return norm == NORM_L2 ? sqrt(sum) : sum;
+}
+
+static int solve(struct pressure_system *system, const struct stopping_rule *rule, void *memory)
+{
+	struct memory *m = memory;
+	int groups = m->columns.groups, done = 0;
+	double limit = rule->residual * rule->residual * begin(m, system), alpha = 0, last = 0;
+	bool stop = false;
+
+	for (;; done++) {
+		double square, energy, work;
+
+		pass(m, system, rule, alpha, groups, take_step);
+		square = total(m->sums, groups);
+		stop = stop || (rule->criterion == CRITERION_RESIDUAL && square <= limit);
+		if (stop || square == 0)
+			break;
+		if (isnan(square) || done == rule->max_iterations)
+			return done ? -done : -1;
+		pass(m, system, rule, 0, m->columns.blocks, solve_modes);
+		energy = total(m->sums, m->columns.blocks);
+		pass(m, system, rule, last > 0 ? energy / last : 0, groups, turn);
+		pass(m, system, rule, 0, groups, multiply);
+		work = total(m->sums, groups);
+		alpha = energy / work;
+		last = energy;
+		stop = rule->criterion == CRITERION_INCREMENT &&
+			   increment(m, system, rule->norm, alpha) < rule->tolerance;
+	}
+	pass(m, system, rule, 0, groups, give_solution);
+	return done;
+}
+
+const struct pressure_solver conjugate_gradients = {
+	.name = "conjugate-gradients",
+	.matrix_free = true,
+	.symmetric_only = true,
+	.create = create,
+	.solve = solve,
+	.free = destroy,
+};
