@@ -3,6 +3,7 @@
 static const struct pressure_solver *const solvers[] = {
 	[METHOD_BLOCK_GAUSS_SEIDEL] = &block_gauss_seidel,
 	[METHOD_CONJUGATE_GRADIENTS] = &conjugate_gradients,
+	[METHOD_BLOCK_DIRECT] = &block_direct,
 };
 
 const struct pressure_solver *pressure_solver_find(int method)

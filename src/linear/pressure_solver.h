@@ -37,7 +37,7 @@ struct pressure_solver {
 	void (*free)(void *memory); /* NULL-safe */
 };
 
-extern const struct pressure_solver block_gauss_seidel, conjugate_gradients;
+extern const struct pressure_solver block_gauss_seidel, conjugate_gradients, block_direct;
 
 /* The method that a config names. */
 const struct pressure_solver *pressure_solver_find(int method);
