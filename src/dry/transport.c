@@ -38,23 +38,19 @@ KERNEL_PART double larger(double a, double b)
 	return a > b ? a : b;
 }
 
-/* What dC depends on at a face. */
-struct held {
-	double h, u, q; /* means of the thickness and of |u_1|, and q at the bottom */
-	double eta_jump, ubar, dt, dx, layers;
-};
-
-/* dC: the part of the surface slope that friction holds (P1, text after 21). */
-KERNEL_PART double held_jump(const struct dry_parameters *par, bool static_balance, struct held at)
+/* dC: the part of the surface slope that friction holds (P1, text after 21). `h`, `u`: means of the
+ * thickness and of |u_1| at the face, `q` there at the bottom. */
+KERNEL_PART double held_jump(const struct dry_parameters *par, bool static_balance, double h,
+	double u, double q, double eta_jump, double u_roe, double dt, double dx, double n)
 {
-	double p = positive(par->gc * at.h + at.q);
-	double mu = dry_mu(par, at.h > DRY_NO_MOMENTUM ? at.u * at.layers / at.h : 0, p);
-	double force = at.ubar / at.dt - par->gc * at.eta_jump / at.dx, most = par->gc * mu;
+	double p = positive(par->gc * h + q);
+	double mu = dry_mu(par, h > DRY_NO_MOMENTUM ? u * n / h : 0, p);
+	double force = u_roe / dt - par->gc * eta_jump / dx, most = par->gc * mu;
 
 	if (static_balance)
-		return fabs(at.eta_jump) <= REST_MARGIN * mu * at.dx ? -at.eta_jump : 0;
+		return fabs(eta_jump) <= REST_MARGIN * mu * dx ? -eta_jump : 0;
 	force = force > most ? most : force < -most ? -most : force;
-	return force * at.dx / par->gc;
+	return force * dx / par->gc;
 }
 
 /* Difference of the bed and the reference plane over every face; a wall mirrors the plane. */
@@ -68,40 +64,65 @@ KERNEL_PART void plane_jumps(const struct model_state *s, const struct window *r
 		jump[r->faces - 1] = 0;
 }
 
-/* Reconstructions, wave speeds and the mass flux at every face of the window. */
-KERNEL_PART void prepare_faces(
-	const struct model_state *s, bool static_balance, double dt, struct window *r)
+/* Wave speeds by Roe's averages, and the coefficients that they make (P1 19). Rows of the cells to the
+ * left (i) and right (j) of each face: indices f and f + 1 of one row keep gcc from vectorising. */
+KERNEL_PART void hll_coefficients(const struct model_state *s, struct window *r, double *u_roe)
 {
-	const double *restrict h = s->h + r->first, *restrict b = s->b + r->first;
-	const double *restrict u = s->u + r->first, *restrict ubar = s->mean + r->first;
-	const double *restrict q = s->q + r->first;
-	double gc = s->par.gc, plane[ROW];
+	const double *restrict h_i = s->h + r->first, *restrict h_j = h_i + 1;
+	const double *restrict ubar_i = s->mean + r->first, *restrict ubar_j = ubar_i + 1;
+	double gc = s->par.gc;
 
-	plane_jumps(s, r, plane);
 	for (int f = 0; f < r->faces; f++) {
-		int i = f, j = f + 1; /* cells to the left and right */
-		double db = b[j] - b[i], dz = db + plane[f], hbar = 0.5 * (h[i] + h[j]);
-		double root_i = __builtin_sqrt(h[i]), root_j = __builtin_sqrt(h[j]);
+		double root_i = __builtin_sqrt(h_i[f]), root_j = __builtin_sqrt(h_j[f]);
 		double roots = root_i + root_j;
-		double u_roe = roots > 0 ? (root_i * ubar[i] + root_j * ubar[j]) / roots : 0;
-		double c_roe = __builtin_sqrt(gc * hbar);
-		double sl = smaller(ubar[i] - __builtin_sqrt(gc * h[i]), u_roe - c_roe);
-		double sr = larger(ubar[j] + __builtin_sqrt(gc * h[j]), u_roe + c_roe);
-		double width = sr - sl, du = h[j] * ubar[j] - h[i] * ubar[i];
-		struct held at = {hbar, 0.5 * fabs(u[i] + u[j]), q[f], dz + h[j] - h[i], u_roe, dt,
-			s->grid.dx, s->layers};
-		double held = dz + held_jump(&s->par, static_balance, at);
+		double mean = (root_i * ubar_i[f] + root_j * ubar_j[f]) / roots, u = roots > 0 ? mean : 0;
+		double c = __builtin_sqrt(gc * (0.5 * (h_i[f] + h_j[f])));
+		double sl = smaller(ubar_i[f] - __builtin_sqrt(gc * h_i[f]), u - c);
+		double sr = larger(ubar_j[f] + __builtin_sqrt(gc * h_j[f]), u + c), width = sr - sl;
+		double alpha0 = (sr * fabs(sl) - sl * fabs(sr)) / width;
+		double alpha1 = (fabs(sr) - fabs(sl)) / width;
 
-		r->alpha0[f] = width > 0 ? (sr * fabs(sl) - sl * fabs(sr)) / width : 0;
-		r->alpha1[f] = width > 0 ? (fabs(sr) - fabs(sl)) / width : 0;
+		r->alpha0[f] = width > 0 ? alpha0 : 0;
+		r->alpha1[f] = width > 0 ? alpha1 : 0;
+		u_roe[f] = u;
+	}
+}
+
+/* Hydrostatic reconstruction, with the part of the slope that friction holds and without (P1 20, 21). */
+KERNEL_PART void reconstruct(const struct model_state *s, bool static_balance, double dt,
+	const double *restrict plane, const double *restrict u_roe, struct window *r)
+{
+	const struct dry_parameters par = s->par;
+	const double *restrict h_i = s->h + r->first, *restrict h_j = h_i + 1;
+	const double *restrict b_i = s->b + r->first, *restrict b_j = b_i + 1;
+	const double *restrict u_i = s->u + r->first, *restrict u_j = u_i + 1;
+	const double *restrict q = s->q + r->first;
+	double dx = s->grid.dx, n = s->layers;
+
+	for (int f = 0; f < r->faces; f++) {
+		double db = b_j[f] - b_i[f], dz = db + plane[f], hbar = 0.5 * (h_i[f] + h_j[f]);
+		double held = dz + held_jump(&par, static_balance, hbar, 0.5 * fabs(u_i[f] + u_j[f]), q[f],
+							   dz + h_j[f] - h_i[f], u_roe[f], dt, dx, n);
+		double left = positive(h_i[f] - positive(held)), right = positive(h_j[f] - positive(-held));
+
 		/* the plane stands outside the reconstruction, or it would cut gravity where h < tan dx */
-		r->source[f] = gc * hbar *
-					   (positive(h[j] - positive(-db)) - positive(h[i] - positive(db)) + (dz - db));
-		r->left[f] = positive(h[i] - positive(held));
-		r->right[f] = positive(h[j] - positive(-held));
-		r->rest_source[f] = gc * hbar * (r->right[f] - r->left[f]);
-		r->mass_flux[f] = 0.5 * (h[i] * ubar[i] + h[j] * ubar[j]) -
-						  0.5 * (r->alpha0[f] * (r->right[f] - r->left[f]) + r->alpha1[f] * du);
+		r->source[f] = par.gc * hbar *
+					   (positive(h_j[f] - positive(-db)) - positive(h_i[f] - positive(db)) + (dz - db));
+		r->rest_source[f] = par.gc * hbar * (right - left);
+		r->left[f] = left;
+		r->right[f] = right;
+	}
+}
+
+KERNEL_PART void mass_fluxes(const struct model_state *s, struct window *r)
+{
+	const double *restrict h = s->h + r->first, *restrict ubar = s->mean + r->first;
+
+	for (int f = 0; f < r->faces; f++) {
+		double left = h[f] * ubar[f], right = h[f + 1] * ubar[f + 1];
+
+		r->mass_flux[f] = 0.5 * (left + right) - 0.5 * (r->alpha0[f] * (r->right[f] - r->left[f]) +
+														   r->alpha1[f] * (right - left));
 	}
 }
 
@@ -117,8 +138,11 @@ KERNEL_PART void limit_outflow(const struct model_state *s, double dt, struct wi
 
 		pays[j] = out > h[j] ? h[j] * (1 - 1e-12) / out : 1;
 	}
-	for (int f = 0; f < r->faces; f++)
-		r->share[f] = flux[f] > 0 ? pays[f] : pays[f + 1];
+	for (int f = 0; f < r->faces; f++) {
+		double left = pays[f], right = pays[f + 1];
+
+		r->share[f] = flux[f] > 0 ? left : right;
+	}
 }
 
 /* One component (`v` is u_a or w_a) of one layer at the faces of a chunk: the numerical flux, and
@@ -213,15 +237,19 @@ KERNEL_PART void advance_thickness(
 
 KERNEL static void transport(struct model_state *s, struct chunk chunk, double dt)
 {
-	struct window r;
 	int last = chunk.last < s->grid.cells ? chunk.last + 2 : chunk.last + 1;
+	double plane[ROW], u_roe[ROW];
+	struct window r;
 
 	r.first = chunk.first > 1 ? chunk.first - 2 : 0;
 	r.faces = last - r.first;
+	plane_jumps(s, &r, plane);
+	hll_coefficients(s, &r, u_roe);
 	if (s->par.static_balance)
-		prepare_faces(s, true, dt, &r);
+		reconstruct(s, true, dt, plane, u_roe, &r);
 	else
-		prepare_faces(s, false, dt, &r);
+		reconstruct(s, false, dt, plane, u_roe, &r);
+	mass_fluxes(s, &r);
 	limit_outflow(s, dt, &r);
 	advance_layers(s, &r, chunk, dt);
 	advance_thickness(s, &r, chunk, dt);
