@@ -137,6 +137,9 @@ static const struct field fields[] = {
 		"wall clock between checkpoints; 0: off"),
 	INTEGER(checkpoint.every_steps, FIELD_PASSIVE, "0", "[0, inf)",
 		"steps between checkpoints; 0: off"),
+
+	INTEGER(threads, FIELD_PASSIVE, "1", "[1, 256]",
+		"processors that share one run; does not change its numbers"),
 };
 /* clang-format on */
 
