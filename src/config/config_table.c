@@ -38,7 +38,10 @@ static const char *const wave_speeds[] = {
 static const char *const reconstructions[] = {
 	[RECONSTRUCTION_STATIC] = "static", [RECONSTRUCTION_PRINTED] = "printed", NULL};
 static const char *const methods[] = {[METHOD_BLOCK_GAUSS_SEIDEL] = "block-gauss-seidel",
-	[METHOD_CONJUGATE_GRADIENTS] = "conjugate-gradients", NULL};
+	[METHOD_BLOCK_GAUSS_SEIDEL_FACTORED] = "block-gauss-seidel-factored",
+	[METHOD_RED_BLACK_LINE_RELAXATION] = "red-black-line-relaxation",
+	[METHOD_CONJUGATE_GRADIENTS] = "conjugate-gradients",
+	[METHOD_LAPACK_BAND] = "lapack-band", NULL};
 static const char *const operators[] = {
 	[OPERATOR_SYMMETRIC] = "symmetric", [OPERATOR_POINTWISE] = "pointwise", NULL};
 static const char *const starts[] = {

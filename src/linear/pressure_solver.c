@@ -2,6 +2,7 @@
 
 static const struct pressure_solver *const solvers[] = {
 	[METHOD_BLOCK_GAUSS_SEIDEL] = &block_gauss_seidel,
+	[METHOD_BLOCK_GAUSS_SEIDEL_FACTORED] = &block_gauss_seidel_factored,
 	[METHOD_CONJUGATE_GRADIENTS] = &conjugate_gradients,
 };
 

@@ -37,7 +37,8 @@ struct pressure_solver {
 	void (*free)(void *memory); /* NULL-safe */
 };
 
-extern const struct pressure_solver block_gauss_seidel, conjugate_gradients;
+extern const struct pressure_solver block_gauss_seidel, block_gauss_seidel_factored,
+	red_black_line_relaxation, conjugate_gradients, lapack_band;
 
 /* The method that a config names. */
 const struct pressure_solver *pressure_solver_find(int method);
