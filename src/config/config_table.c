@@ -37,9 +37,13 @@ static const char *const wave_speeds[] = {
 	[WAVE_SPEED_FASTEST] = "fastest", [WAVE_SPEED_MEAN] = "mean", NULL};
 static const char *const reconstructions[] = {
 	[RECONSTRUCTION_STATIC] = "static", [RECONSTRUCTION_PRINTED] = "printed", NULL};
-static const char *const methods[] = {[METHOD_BLOCK_GAUSS_SEIDEL] = "block-gauss-seidel",
+static const char *const methods[] = {[METHOD_AUTO] = "auto",
+	[METHOD_BLOCK_GAUSS_SEIDEL] = "block-gauss-seidel",
+	[METHOD_BLOCK_GAUSS_SEIDEL_FACTORED] = "block-gauss-seidel-factored",
+	[METHOD_RED_BLACK_LINE_RELAXATION] = "red-black-line-relaxation",
 	[METHOD_CONJUGATE_GRADIENTS] = "conjugate-gradients",
-	[METHOD_BLOCK_DIRECT] = "block-direct", NULL};
+	[METHOD_BLOCK_DIRECT] = "block-direct",
+	[METHOD_LAPACK_BAND] = "lapack-band", NULL};
 static const char *const operators[] = {
 	[OPERATOR_SYMMETRIC] = "symmetric", [OPERATOR_POINTWISE] = "pointwise", NULL};
 static const char *const starts[] = {

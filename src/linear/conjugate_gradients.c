@@ -297,6 +297,7 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 
 const struct pressure_solver conjugate_gradients = {
 	.name = "conjugate-gradients",
+	.method = METHOD_CONJUGATE_GRADIENTS,
 	.matrix_free = true,
 	.symmetric_only = true,
 	.create = create,

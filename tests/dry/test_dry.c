@@ -416,7 +416,7 @@ static void a_solver_that_does_not_converge_ends_the_step(void **state)
 	assert_int_equal(err.code, EX_FAILED);
 	assert_non_null(strstr(err.text,
 		"the pressure solver (block-gauss-seidel, 4 layers) did not converge at x = 0 m: "
-		"stopped after 2 iterations, tolerance 1e-06 m2/s2, relative residual "));
+		"stopped after 2 iterations, relative residual "));
 	dry_model.free(s);
 }
 
