@@ -121,6 +121,8 @@ static const struct field fields[] = {
 		"norm of a sweep's increment that stops the iteration"),
 	REAL(pressure_solver.tolerance, 0, "m2/s2", "1e-6 m2/s2", "(0, inf)",
 		"value of that norm at which it stops"),
+	REAL(pressure_solver.relaxation, 0, "1", "0", "[0, 2)",
+		"over-relaxation factor of red-black-line-relaxation; 0: chosen from the number of layers"),
 	INTEGER(pressure_solver.max_iterations, 0, "20000", "[1, inf)",
 		"sweeps after which the solver has failed"),
 

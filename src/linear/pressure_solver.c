@@ -3,6 +3,7 @@
 static const struct pressure_solver *const solvers[] = {
 	[METHOD_BLOCK_GAUSS_SEIDEL] = &block_gauss_seidel,
 	[METHOD_BLOCK_GAUSS_SEIDEL_FACTORED] = &block_gauss_seidel_factored,
+	[METHOD_RED_BLACK_LINE_RELAXATION] = &red_black_line_relaxation,
 	[METHOD_CONJUGATE_GRADIENTS] = &conjugate_gradients,
 };
 
