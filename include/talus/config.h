@@ -20,6 +20,7 @@ enum method_kind {
 	METHOD_BLOCK_GAUSS_SEIDEL_FACTORED,
 	METHOD_RED_BLACK_LINE_RELAXATION,
 	METHOD_CONJUGATE_GRADIENTS,
+	METHOD_BLOCK_DIRECT,
 	METHOD_LAPACK_BAND,
 };
 enum operator_kind { OPERATOR_SYMMETRIC, OPERATOR_POINTWISE };
@@ -92,6 +93,7 @@ struct config {
 		double every;    /* wall clock, s; 0: off */
 		int every_steps; /* 0: off */
 	} checkpoint;
+	int threads; /* that share one run */
 };
 
 /* Read a config from a YAML file. `settings` are `count` texts "key=value" with dotted keys
@@ -111,11 +113,12 @@ void config_print(const struct config *config, struct text *out);
 /* The annotated reference config: every key with default, unit, range or choices and meaning. */
 void config_print_reference(struct text *out);
 
-/* 16 hexadecimal digits of what can change numbers: every key except `checkpoint`. */
+/* 16 hexadecimal digits of what can change numbers: every key except `checkpoint` and
+ * `threads`. */
 enum { CONFIG_HASH_SIZE = 17 };
 int config_hash(const struct config *config, char hash[CONFIG_HASH_SIZE], struct error *err);
 
-/* Name, per line, every key (except `checkpoint`) whose value differs: "layers: 10 -> 20". */
+/* Name, per line, every key (except `checkpoint` and `threads`) whose value differs: "layers: 10 -> 20". */
 void config_differences(const struct config *a, const struct config *b, struct text *out);
 
 /* The value of a dotted key as config_print writes it, without the key. EX_DATAERR with the nearest

@@ -26,6 +26,10 @@ enum { LANES = 8 };
 /* Loaded from and stored to any address of a double. */
 typedef double v8 __attribute__((vector_size(LANES * sizeof(double)), aligned(8), may_alias));
 
+/* Sixteen of single precision, and eight, for what need not be exact. */
+typedef float v16f __attribute__((vector_size(2 * LANES * sizeof(float)), aligned(4), may_alias));
+typedef float v8f __attribute__((vector_size(LANES * sizeof(float)), aligned(4), may_alias));
+
 #pragma GCC diagnostic ignored                                                                     \
 	"-Wpsabi" /* how vectors are passed: they never are, all is inlined */
 

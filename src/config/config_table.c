@@ -41,6 +41,7 @@ static const char *const methods[] = {[METHOD_BLOCK_GAUSS_SEIDEL] = "block-gauss
 	[METHOD_BLOCK_GAUSS_SEIDEL_FACTORED] = "block-gauss-seidel-factored",
 	[METHOD_RED_BLACK_LINE_RELAXATION] = "red-black-line-relaxation",
 	[METHOD_CONJUGATE_GRADIENTS] = "conjugate-gradients",
+	[METHOD_BLOCK_DIRECT] = "block-direct",
 	[METHOD_LAPACK_BAND] = "lapack-band", NULL};
 static const char *const operators[] = {
 	[OPERATOR_SYMMETRIC] = "symmetric", [OPERATOR_POINTWISE] = "pointwise", NULL};
@@ -141,6 +142,9 @@ static const struct field fields[] = {
 		"wall clock between checkpoints; 0: off"),
 	INTEGER(checkpoint.every_steps, FIELD_PASSIVE, "0", "[0, inf)",
 		"steps between checkpoints; 0: off"),
+
+	INTEGER(threads, FIELD_PASSIVE, "1", "[1, 256]",
+		"processors that share one run; does not change its numbers"),
 };
 /* clang-format on */
 

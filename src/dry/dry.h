@@ -9,6 +9,7 @@
 
 #include <stdint.h>
 
+#include "base/kernel.h"
 #include "case/grid.h"
 #include "linear/pressure_solver.h"
 #include "talus/config.h"
@@ -67,6 +68,7 @@ struct model_state {
 	struct dry_parameters par;
 	struct grid grid;
 	int layers;
+	int threads;
 
 	/* The exact state. */
 	double *h;    /* thickness, [stride], m */
@@ -81,11 +83,16 @@ struct model_state {
 	/* Velocities u_a, w_a: at t^n through transport and friction, then of the new state,
 	 * [layers][stride], m/s. */
 	double *u, *w;
+	double *mean;    /* u over the layers, [stride], m/s */
+	double *fastest; /* largest |u| of the layers, [stride], m/s */
+	double *squares; /* sum of u^2 + w^2 over the layers, [stride], m2/s2 */
 
-	double *cell[8];  /* scratch rows of cells, [stride] */
-	double *face[10]; /* scratch rows of faces, [faces] */
-	double *work;     /* scratch of friction, [layers][stride] */
-	bool *dry;        /* [faces], q is 0 there */
+	double *next;       /* thickness after transport, [stride], m */
+	double end_flux[2]; /* of mass at the ends in the last step, m2/s */
+	const double *force; /* the pressure whose force is being added */
+	double *face[6];    /* scratch rows of faces, [faces] */
+	double *work;       /* scratch of friction, [layers][stride] */
+	bool *dry;          /* [faces], q is 0 there */
 
 	const struct pressure_operator *operator_;
 	const struct pressure_solver *solver;
@@ -103,7 +110,7 @@ struct model_state {
 };
 
 /* mu(I) of P1 2.1, from the shear |d_z u| in 1/s and p/rho in m2/s2. */
-static inline double dry_mu(const struct dry_parameters *par, double shear, double p)
+KERNEL_PART double dry_mu(const struct dry_parameters *par, double shear, double p)
 {
 	/* I = d |d_z u| sqrt(rho_s/p); at p = 0 the largest friction, and no stress either way */
 	double inertia = par->inertia * shear;
@@ -112,7 +119,7 @@ static inline double dry_mu(const struct dry_parameters *par, double shear, doub
 		   (par->mu_2 - par->mu_s) * inertia / (par->i_0 * __builtin_sqrt(p) + inertia + 1e-300);
 }
 
-/* Velocities from discharges, zero where the cell is dry, with ghosts. */
+/* Velocities from discharges, zero where the cell is dry, with ghosts; and what their layers sum up to. */
 void dry_velocities(struct model_state *s);
 
 /* Set the cells under DRY_NO_PRESSURE back to slow: U and W times a factor that vanishes with h. */

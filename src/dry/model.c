@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "case/initial.h"
+#include "dry/chunk.h"
 #include "dry/dry.h"
 
 #define GRAVITY 9.81 /* m/s2 */
@@ -62,8 +63,10 @@ static size_t layout(struct model_state *s, double *memory)
 	s->q = place(&next, n * faces);
 	s->dq = place(&next, n * faces);
 	s->mass = place(&next, 2);
-	for (size_t i = 0; i < sizeof s->cell / sizeof *s->cell; i++)
-		s->cell[i] = place(&next, stride);
+	s->mean = place(&next, stride);
+	s->fastest = place(&next, stride);
+	s->squares = place(&next, stride);
+	s->next = place(&next, stride);
 	for (size_t i = 0; i < sizeof s->face / sizeof *s->face; i++)
 		s->face[i] = place(&next, faces);
 	s->work = place(&next, n * stride);
@@ -72,12 +75,15 @@ static size_t layout(struct model_state *s, double *memory)
 	s->layer_interface = place(&next, n + 1);
 	s->coarse.u = coarse ? place(&next, coarse * stride) : NULL;
 	s->coarse.w = coarse ? place(&next, coarse * stride) : NULL;
-	return (11 + 5 * n + 2 * coarse) * stride + (10 + 2 * n) * faces + 2 * n + 3;
+	return (7 + 5 * n + 2 * coarse) * stride + (6 + 2 * n) * faces + 2 * n + 3;
 }
 
-static int projection_init(struct model_state *s, struct projection *problem, struct error *err)
+static int projection_init(struct model_state *s, const struct config *config,
+	struct projection *problem, struct error *err)
 {
-	const struct pressure_options options = {.threads = 1};
+	const struct pressure_options options = {.relaxation = config->pressure_solver.relaxation,
+		.threads = 1,
+		.symmetric = s->operator_->symmetric};
 
 	TRY(pressure_system_init(
 		&problem->system, problem->layers, s->grid.faces, !s->solver->matrix_free, err));
@@ -126,6 +132,7 @@ static int create(const struct config *config, struct model_state **out, struct 
 	s->par = parameters(config);
 	s->grid = grid_make(config);
 	s->layers = s->full.layers = config->layers;
+	s->threads = config->threads;
 	s->operator_ = operators[config->pressure_solver.operator_];
 	s->solver = pressure_solver_find(config->pressure_solver.method);
 	s->rule = (struct stopping_rule){.criterion = config->pressure_solver.criterion,
@@ -143,8 +150,8 @@ static int create(const struct config *config, struct model_state **out, struct 
 		return error_memory(err, count * sizeof *s->memory);
 	}
 	(void)layout(s, s->memory);
-	if ((s->par.non_hydrostatic && projection_init(s, &s->full, err)) ||
-		(s->coarse.layers && projection_init(s, &s->coarse, err))) {
+	if ((s->par.non_hydrostatic && projection_init(s, config, &s->full, err)) ||
+		(s->coarse.layers && projection_init(s, config, &s->coarse, err))) {
 		destroy(s);
 		return -1;
 	}
@@ -153,38 +160,99 @@ static int create(const struct config *config, struct model_state **out, struct 
 	return 0;
 }
 
+/* Layer a of the chunk: velocities, and their sums over the layers so far. */
+KERNEL_PART void layer_velocities(int cells, const double *restrict inverse,
+	const double *restrict U, double *restrict u, double *restrict sum, double *restrict fastest,
+	double *restrict squares)
+{
+	for (int k = 0; k < cells; k++) {
+		double speed;
+
+		u[k] = U[k] * inverse[k];
+		speed = fabs(u[k]);
+		sum[k] += u[k];
+		fastest[k] = speed > fastest[k] ? speed : fastest[k];
+		squares[k] += u[k] * u[k];
+	}
+}
+
+KERNEL_PART void layer_normal_velocities(int cells, const double *restrict inverse,
+	const double *restrict W, double *restrict w, double *restrict squares)
+{
+	for (int k = 0; k < cells; k++) {
+		w[k] = W[k] * inverse[k];
+		squares[k] += w[k] * w[k];
+	}
+}
+
+KERNEL static void velocities(struct model_state *s, struct chunk chunk, double dt)
+{
+	size_t row = (size_t)chunk.first, bytes;
+	const double *restrict h = s->h + row;
+	double *restrict mean = s->mean + row;
+	double *restrict fastest = s->fastest + row, *restrict squares = s->squares + row;
+	double inverse[CHUNK_CELLS];
+	int cells = chunk.last - chunk.first + 1;
+
+	(void)dt;
+	bytes = (size_t)cells * sizeof *mean;
+	memset(mean, 0, bytes);
+	memset(fastest, 0, bytes);
+	memset(squares, 0, bytes);
+	for (int k = 0; k < cells; k++)
+		inverse[k] = h[k] > DRY_NO_MOMENTUM ? 1 / h[k] : 0;
+	for (int a = 0; a < s->layers; a++, row += s->grid.stride) {
+		layer_velocities(cells, inverse, s->U + row, s->u + row, mean, fastest, squares);
+		if (s->par.non_hydrostatic)
+			layer_normal_velocities(cells, inverse, s->W + row, s->w + row, squares);
+	}
+	for (int k = 0; k < cells; k++)
+		mean[k] /= s->layers;
+}
+
 void dry_velocities(struct model_state *s)
 {
+	chunk_each(s, velocities, 0);
+	grid_fill_odd(&s->grid, s->mean);
 	for (int a = 0; a < s->layers; a++) {
-		size_t row = (size_t)a * s->grid.stride;
-		const double *h = s->h, *U = s->U + row, *W = s->W + row;
-		double *u = s->u + row, *w = s->w + row;
+		grid_fill_odd(&s->grid, s->u + (size_t)a * s->grid.stride);
+		grid_fill_even(&s->grid, s->w + (size_t)a * s->grid.stride);
+	}
+}
 
-		for (int i = 1; i <= s->grid.cells; i++) {
-			double inverse = h[i] > DRY_NO_MOMENTUM ? 1 / h[i] : 0;
+KERNEL_PART void scale(int cells, const double *restrict factor, double *restrict discharge)
+{
+	for (int k = 0; k < cells; k++)
+		discharge[k] *= factor[k];
+}
 
-			u[i] = U[i] * inverse;
-			w[i] = W[i] * inverse;
-		}
-		grid_fill_odd(&s->grid, u);
-		grid_fill_even(&s->grid, w);
+KERNEL static void damp(struct model_state *s, struct chunk chunk, double dt)
+{
+	const double *restrict h = s->h + chunk.first;
+	int cells = chunk.last - chunk.first + 1, thin = 0;
+	size_t row = (size_t)chunk.first, stride = s->grid.stride;
+	double factor[CHUNK_CELLS];
+
+	(void)dt;
+	for (int k = 0; k < cells; k++)
+		thin |= h[k] < DRY_NO_PRESSURE;
+	if (!thin)
+		return;
+	for (int k = 0; k < cells; k++) {
+		double h2 = h[k] * h[k], slow = sqrt(2) * h2 / __builtin_sqrt(h2 * h2 + 1e-20);
+
+		factor[k] = h[k] >= DRY_NO_PRESSURE ? 1 : h[k] < DRY_NO_MOMENTUM ? 0 : slow;
+	}
+	for (int a = 0; a < s->layers; a++, row += stride) {
+		scale(cells, factor, s->U + row);
+		if (s->par.non_hydrostatic)
+			scale(cells, factor, s->W + row);
 	}
 }
 
 void dry_damp(struct model_state *s)
 {
-	for (int i = 1; i <= s->grid.cells; i++) {
-		double h2 = s->h[i] * s->h[i], factor = sqrt(2) * h2 / sqrt(h2 * h2 + 1e-20);
-
-		if (s->h[i] >= DRY_NO_PRESSURE)
-			continue;
-		if (s->h[i] < DRY_NO_MOMENTUM)
-			factor = 0;
-		for (int a = 0; a < s->layers; a++) {
-			s->U[(size_t)a * s->grid.stride + (size_t)i] *= factor;
-			s->W[(size_t)a * s->grid.stride + (size_t)i] *= factor;
-		}
-	}
+	chunk_each(s, damp, 0);
 }
 
 /* P1 (14), with either reading of the wave speed. */
@@ -193,16 +261,10 @@ static double time_step(const struct model_state *s)
 	double fastest = 0;
 
 	for (int i = 1; i <= s->grid.cells; i++) {
-		double speed = 0, sum = 0, lambda;
+		double speed = s->par.fastest ? s->fastest[i] : fabs(s->mean[i]);
+		double lambda = speed + sqrt(s->par.gc * s->h[i]);
 
-		for (int a = 0; a < s->layers; a++) {
-			double u = s->u[(size_t)a * s->grid.stride + (size_t)i];
-
-			sum += u;
-			speed = fmax(speed, fabs(u));
-		}
-		lambda = (s->par.fastest ? speed : fabs(sum) / s->layers) + sqrt(s->par.gc * s->h[i]);
-		if (isnan(sum + lambda)) /* fmax passes over a NaN */
+		if (isnan(s->mean[i] + lambda)) /* the fastest layer passes over a NaN */
 			return NAN;
 		fastest = lambda > fastest ? lambda : fastest;
 	}
@@ -213,15 +275,10 @@ static double time_step(const struct model_state *s)
 static int check(const struct model_state *s, struct error *err)
 {
 	for (int i = 1; i <= s->grid.cells; i++) {
-		double sum = s->h[i];
-
 		if (s->h[i] < 0)
 			return error_set(err, EX_FAILED, "negative thickness %g m at x = %g m", s->h[i],
 				grid_centre(&s->grid, i));
-		for (int a = 0; a < s->layers; a++)
-			sum += fabs(s->u[(size_t)a * s->grid.stride + (size_t)i]) +
-				   fabs(s->w[(size_t)a * s->grid.stride + (size_t)i]);
-		if (!isfinite(sum))
+		if (!isfinite(s->h[i] + s->squares[i]))
 			return error_set(err, EX_FAILED, "the state is not finite (thickness %g m) at x = %g m",
 				s->h[i], grid_centre(&s->grid, i));
 	}
@@ -269,7 +326,7 @@ static size_t arrays(struct model_state *s, struct array *list)
 
 const struct model dry_model = {
 	.name = "dry",
-	.numerics_version = 1,
+	.numerics_version = 2,
 	.series = dry_series,
 	.series_count = DRY_SERIES_COUNT,
 	.profiles = dry_profiles,

@@ -115,15 +115,10 @@ static double energy(const struct model_state *s)
 	double sum = 0, end = s->grid.x_min + s->grid.cells * s->grid.dx;
 
 	for (int i = 1; i <= s->grid.cells; i++) {
-		double kinetic = 0, plane = (end - grid_centre(&s->grid, i)) * s->par.tan_slope;
+		double plane = (end - grid_centre(&s->grid, i)) * s->par.tan_slope;
 
-		for (int a = 0; a < s->layers; a++) {
-			size_t k = (size_t)a * s->grid.stride + (size_t)i;
-
-			kinetic += s->u[k] * s->u[k] + s->w[k] * s->w[k];
-		}
-		sum +=
-			s->h[i] * (0.5 * kinetic / s->layers + s->par.gc * (plane + s->b[i] + 0.5 * s->h[i]));
+		sum += s->h[i] * (0.5 * s->squares[i] / s->layers +
+							 s->par.gc * (plane + s->b[i] + 0.5 * s->h[i]));
 	}
 	return s->par.rho * s->grid.dx * sum;
 }
@@ -134,11 +129,9 @@ void dry_observe(const struct model_state *s, double *values)
 
 	for (int i = 1; i <= s->grid.cells; i++) {
 		mass += s->h[i];
-		thickest = fmax(thickest, s->h[i]);
+		thickest = s->h[i] > thickest ? s->h[i] : thickest;
+		speed = s->fastest[i] > speed ? s->fastest[i] : speed;
 	}
-	for (int a = 0; a < s->layers; a++)
-		for (int i = 1; i <= s->grid.cells; i++)
-			speed = fmax(speed, fabs(s->u[(size_t)a * s->grid.stride + (size_t)i]));
 	values[FRONT_POSITION] = front(s);
 	values[MAX_SPEED] = speed;
 	values[MAX_THICKNESS] = thickest;

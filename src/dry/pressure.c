@@ -5,32 +5,6 @@
 
 #include "dry/dry.h"
 
-void dry_add_pressure_force(struct model_state *s, const double *p, double dt)
-{
-	const struct grid *grid = &s->grid;
-	double dx = grid->dx, n = s->layers;
-	const double *h = s->h, *b = s->b;
-
-	for (int a = 0; a < s->layers; a++) {
-		const double *low = p + (size_t)a * (size_t)grid->faces;
-		const double *high = low + grid->faces;
-		double *U = s->U + (size_t)a * grid->stride, *W = s->W + (size_t)a * grid->stride;
-		double top = a == s->layers - 1 ? 0 : 1; /* q = 0 at the surface */
-
-		if (a == s->layers - 1)
-			high = low;
-		for (int i = 1; i <= grid->cells; i++) {
-			double hl = top * high[i - 1], hr = top * high[i];
-			double xi = ((a + 0.5) * (h[i + 1] - h[i - 1]) + n * (b[i + 1] - b[i - 1])) / (2 * dx);
-			double mean = 0.5 * (low[i - 1] + low[i]), mean_high = 0.5 * (hl + hr);
-			double slope = (low[i] - low[i - 1] + hr - hl) / dx;
-
-			U[i] += dt * (-0.5 * h[i] * slope + xi * (mean_high - mean));
-			W[i] += dt * n * (mean - mean_high);
-		}
-	}
-}
-
 /* Faces without non-hydrostatic pressure: open ends, and next to a cell that is nearly dry. */
 static void mark_dry(struct model_state *s)
 {

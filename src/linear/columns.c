@@ -51,70 +51,72 @@ KERNEL void columns_to_rows(const struct columns *columns, const double *from, d
 	}
 }
 
-/* The terms g - e (low) and g + e (high) of cell i, between columns `l` and `r`, for all layers. */
-KERNEL_PART void cell_terms(const struct columns *columns, const struct pressure_cells *cells,
-	int i, const double *l, const double *r, double *low, double *high)
+/* What a cell gives to the columns on both sides, per layer: g - e and g + e. */
+struct terms {
+	v8 low[COLUMNS_BLOCKS_MAX], high[COLUMNS_BLOCKS_MAX];
+};
+
+/* The terms of cell i, between columns `l` and `r`. */
+KERNEL_PART void cell_terms(const struct pressure_cells *cells, int i, const double *l,
+	const double *r, struct terms *out, int blocks)
 {
 	static const v8 count = {0, 1, 2, 3, 4, 5, 6, 7};
 	double stretch = cells->stretch[i], lean = cells->lean[i], inverse = cells->inverse[i];
+	double tilt = cells->tilt[i];
 
-	for (int k = 0; k < columns->blocks; k++) {
-		v8 s = lean * (count + (double)(k * LANES)) + cells->tilt[i];
-		v8 l0 = v8_load(l + k * LANES), l1 = v8_load(l + k * LANES + 1);
-		v8 r0 = v8_load(r + k * LANES), r1 = v8_load(r + k * LANES + 1);
+	for (int k = 0; k < blocks; k++, l += LANES, r += LANES) {
+		v8 s = lean * (count + (double)(k * LANES)) + tilt, cs = cells->cross * s;
+		v8 l0 = v8_load(l), l1 = v8_load(l + 1), r0 = v8_load(r), r1 = v8_load(r + 1);
 		v8 jump = (l0 + l1) - (r0 + r1), difference = (l1 + r1) - (l0 + r0);
-		v8 cs = cells->cross * s;
 		v8 g = stretch * jump + cs * difference;
 		v8 e = cs * jump + (s * s + cells->quarter_nn) * inverse * difference;
 
-		v8_store(low + k * LANES, g - e);
-		v8_store(high + k * LANES, g + e);
+		out->low[k] = g - e;
+		out->high[k] = g + e;
 	}
 }
 
 /* Value a - 1 of a row of terms in lane a of block k. */
-KERNEL_PART v8 shifted(const double *terms, int k)
+KERNEL_PART v8 shifted(const v8 *terms, int k)
 {
-	v8 here = v8_load(terms + k * LANES), before = {0};
+	v8 before = k > 0 ? terms[k - 1] : (v8){0};
 
-	if (k > 0)
-		before = v8_load(terms + (k - 1) * LANES);
-	return __builtin_shufflevector(before, here, 7, 8, 9, 10, 11, 12, 13, 14);
+	return __builtin_shufflevector(before, terms[k], 7, 8, 9, 10, 11, 12, 13, 14);
 }
 
-/* What the cells to the left and to the right give to a column. */
-KERNEL_PART v8 gather(const struct columns *columns, const double *const left[2],
-	const double *const right[2], const double *x, double *out)
+/* What the cells to the left and to the right give to a column; returns its product with x, by lanes. */
+KERNEL_PART v8 gather(const struct terms *left, const struct terms *right, const double *x,
+	double *out, int blocks, v8 surface)
 {
-	int rest = columns->layers % LANES;
 	v8 sum = {0};
 
-	for (int k = 0; k < columns->blocks; k++) {
-		v8 from_right = v8_load(right[0] + k * LANES) + shifted(right[1], k);
-		v8 from_left = v8_load(left[1] + k * LANES) + shifted(left[0], k);
-		v8 value = from_right - from_left;
+	for (int k = 0; k < blocks; k++) {
+		v8 from_right = right->low[k] + shifted(right->high, k);
+		v8 value = from_right - (left->high[k] + shifted(left->low, k));
 
-		if (k + 1 == columns->blocks) /* nothing above the surface */
-			for (int lane = 0; lane < LANES; lane++)
-				value[lane] = lane < rest ? value[lane] : 0;
+		if (k + 1 == blocks)
+			value *= surface; /* nothing above it */
 		sum += value * v8_load(x + k * LANES);
 		v8_store(out + k * LANES, value);
 	}
 	return sum;
 }
 
-KERNEL void columns_apply(const struct columns *columns, const struct pressure_system *system,
-	const double *x, double *out, double *sums, double *terms, int first, int last)
+KERNEL_PART void apply(const struct columns *columns, const struct pressure_system *system,
+	const double *x, double *out, double *sums, int first, int last, int blocks)
 {
 	const struct pressure_cells *cells = &system->cells;
-	size_t stride = columns->stride;
-	double *left[2] = {terms, terms + stride}, *right[2] = {terms + 2 * stride, terms + 3 * stride};
-	int f = first * LANES;
+	size_t stride = (size_t)blocks * LANES;
+	struct terms left, right;
+	int f = first * LANES, rest = columns->layers % LANES;
+	v8 surface;
 
-	memset(left[0], 0, 2 * stride * sizeof *terms);
+	for (int lane = 0; lane < LANES; lane++)
+		surface[lane] = lane < rest;
+	for (int k = 0; k < blocks; k++)
+		left.low[k] = left.high[k] = (v8){0};
 	if (f > 0)
-		cell_terms(columns, cells, f, x + (size_t)(f - 1) * stride, x + (size_t)f * stride, left[0],
-			left[1]);
+		cell_terms(cells, f, x + (size_t)(f - 1) * stride, x + (size_t)f * stride, &left, blocks);
 	for (int g = first; g < last; g++) {
 		int end = g * LANES + group_width(columns, g);
 		v8 sum = {0};
@@ -123,19 +125,35 @@ KERNEL void columns_apply(const struct columns *columns, const struct pressure_s
 			const double *here = x + (size_t)f * stride;
 
 			/* the ghost cell behind the last column has zeros for its five numbers */
-			cell_terms(columns, cells, f + 1, here, here + stride, right[0], right[1]);
+			cell_terms(cells, f + 1, here, here + stride, &right, blocks);
 			if (cells->dry[f])
 				memset(out + (size_t)f * stride, 0, stride * sizeof *out);
 			else
-				sum += gather(columns, (const double *const *)left, (const double *const *)right,
-					here, out + (size_t)f * stride);
-			for (int side = 0; side < 2; side++) {
-				double *const spare = left[side];
-
-				left[side] = right[side];
-				right[side] = spare;
+				sum += gather(&left, &right, here, out + (size_t)f * stride, blocks, surface);
+			for (int k = 0; k < blocks; k++) {
+				left.low[k] = right.low[k];
+				left.high[k] = right.high[k];
 			}
 		}
 		sums[g] = v8_sum(sum);
+	}
+}
+
+/* The usual numbers of blocks are known when compiled, so that a column stays in registers. */
+KERNEL void columns_apply(const struct columns *columns, const struct pressure_system *system,
+	const double *x, double *out, double *sums, int first, int last)
+{
+	switch (columns->blocks) {
+	case 1:
+		apply(columns, system, x, out, sums, first, last, 1);
+		break;
+	case 2:
+		apply(columns, system, x, out, sums, first, last, 2);
+		break;
+	case 3:
+		apply(columns, system, x, out, sums, first, last, 3);
+		break;
+	default:
+		apply(columns, system, x, out, sums, first, last, columns->blocks);
 	}
 }

@@ -19,6 +19,8 @@ struct columns {
 	size_t stride; /* of a column: LANES blocks */
 };
 
+enum { COLUMNS_BLOCKS_MAX = 512 / LANES + 1 }; /* of the most layers that a config takes */
+
 struct columns columns_make(int layers, int faces);
 
 /* How many doubles an array of columns takes. */
@@ -34,8 +36,8 @@ void columns_to_rows(const struct columns *columns, const double *from, double *
 	size_t row_stride, int first, int last);
 
 /* out = A x for a symmetric system in groups [first, last), with the sum of x out of each group in
- * `sums` [groups]. `terms` is scratch of four columns, of the caller alone. */
+ * `sums` [groups]. */
 void columns_apply(const struct columns *columns, const struct pressure_system *system,
-	const double *x, double *out, double *sums, double *terms, int first, int last);
+	const double *x, double *out, double *sums, int first, int last);
 
 #endif

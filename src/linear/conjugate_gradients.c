@@ -11,12 +11,14 @@ struct memory {
 	struct fast_diagonal fast;
 	struct columns columns;
 	int threads;
-	double *x, *residual, *direction, *modes; /* columns */
+	double *x, *residual, *direction; /* columns, in units of |b| */
 	double
 		*product;  /* columns: A times the direction, and in between the preconditioned residual */
 	double *sums;  /* [2][groups or blocks, whichever is more] */
 	double *terms; /* [threads][4][stride] */
+	float *modes;    /* columns of modes */
 	double *block;
+	double scale; /* |b| */
 };
 
 /* What one thread does in a pass. */
@@ -26,19 +28,18 @@ struct part {
 	const struct stopping_rule *rule;
 	double factor; /* alpha or beta */
 	int first, last;
-	double *terms;
 };
 
 static size_t layout(struct memory *m, double *block)
 {
-	size_t all = columns_count(&m->columns), stride = m->columns.stride;
+	size_t all = columns_count(&m->columns);
 	size_t sums =
 		(size_t)(m->columns.groups > m->columns.blocks ? m->columns.groups : m->columns.blocks);
 	struct {
 		double **part;
 		size_t count;
-	} const parts[] = {{&m->x, all}, {&m->residual, all}, {&m->direction, all}, {&m->modes, all},
-		{&m->product, all}, {&m->sums, 2 * sums}, {&m->terms, 4 * stride * (size_t)m->threads}};
+	} const parts[] = {{&m->x, all}, {&m->residual, all}, {&m->direction, all},
+		{&m->product, all}, {&m->sums, sums}};
 	size_t at = 0;
 
 	for (size_t i = 0; i < sizeof parts / sizeof *parts; at += parts[i++].count)
@@ -54,6 +55,7 @@ static void destroy(void *memory)
 		return;
 	fast_diagonal_clean(&m->fast);
 	free(m->block);
+	free(m->modes);
 	free(m);
 }
 
@@ -67,11 +69,16 @@ static int create(
 		return error_memory(err, sizeof *m);
 	m->columns = columns_make(layers, faces);
 	m->threads = options->threads;
+	if (fast_diagonal_init(&m->fast, layers, faces, err) != 0) {
+		destroy(m);
+		return -1;
+	}
 	count = layout(m, NULL);
 	m->block = calloc(count, sizeof *m->block);
-	if (!m->block || fast_diagonal_init(&m->fast, layers, faces, err) != 0) {
+	m->modes = calloc(fast_diagonal_count(&m->fast), sizeof *m->modes);
+	if (!m->block || !m->modes) {
 		destroy(m);
-		return err->code ? -1 : error_memory(err, count * sizeof *m->block);
+		return error_memory(err, count * sizeof *m->block);
 	}
 	(void)layout(m, m->block);
 	*out = m;
@@ -87,7 +94,7 @@ static void pass(struct memory *m, const struct pressure_system *system,
 #pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
 	for (int t = 0; t < threads; t++) {
 		struct part part = {m, system, rule, factor, (int)((long)count * t / threads),
-			(int)((long)count * (t + 1) / threads), m->terms + 4 * m->columns.stride * (size_t)t};
+			(int)((long)count * (t + 1) / threads)};
 
 		work(&part);
 	}
@@ -131,7 +138,7 @@ static void take_start(struct part *part)
 static void multiply_start(struct part *part)
 {
 	columns_apply(&part->m->columns, part->system, part->m->x, part->m->product, part->m->sums,
-		part->terms, part->first, part->last);
+		part->first, part->last);
 }
 
 /* x += alpha p, r -= alpha A p (part->factor: alpha); sums: r r. Then the modes of r. */
@@ -152,7 +159,7 @@ KERNEL static void take_step(struct part *part)
 			sum += r * r;
 		}
 		m->sums[g] = v8_sum(sum);
-		fast_diagonal_transform(&m->fast, m->fast.to_modes, m->residual, m->modes, g, g + 1);
+		fast_diagonal_to_modes(&m->fast, m->residual, m->modes, g, g + 1);
 	}
 }
 
@@ -175,7 +182,7 @@ KERNEL static void turn(struct part *part)
 	for (int g = part->first; g < part->last; g++) {
 		size_t at = group_at(m, g);
 
-		fast_diagonal_transform(&m->fast, m->fast.to_layers, m->modes, m->product, g, g + 1);
+		fast_diagonal_to_layers(&m->fast, m->modes, m->product, g, g + 1);
 		for (size_t i = at; i < at + LANES * m->columns.stride; i += LANES)
 			v8_store(m->direction + i, v8_load(m->product + i) + beta * v8_load(m->direction + i));
 	}
@@ -184,7 +191,7 @@ KERNEL static void turn(struct part *part)
 static void multiply(struct part *part)
 {
 	columns_apply(&part->m->columns, part->system, part->m->direction, part->m->product,
-		part->m->sums, part->terms, part->first, part->last);
+		part->m->sums, part->first, part->last);
 }
 
 static void give_solution(struct part *part)
@@ -202,26 +209,37 @@ static bool starts_at_zero(const struct pressure_system *system)
 	return true;
 }
 
-/* Residual and direction for the start at hand. Returns the square of the right side. */
-static double begin(struct memory *m, const struct pressure_system *system)
+/* x and r in units of |b|, so that single precision has them in its range. */
+static void rescale(struct memory *m, double factor)
+{
+	size_t all = columns_count(&m->columns);
+
+	for (size_t i = 0; i < all; i++) {
+		m->residual[i] *= factor;
+		m->x[i] *= factor;
+	}
+}
+
+/* Residual and direction for the start at hand. */
+static void begin(struct memory *m, const struct pressure_system *system)
 {
 	int groups = m->columns.groups;
 	size_t all = columns_count(&m->columns);
-	double square;
 
 	fast_diagonal_prepare(&m->fast, system);
-	pass(m, system, NULL, 0, m->columns.blocks, factor_modes);
+	pass(m, system, NULL, 0, fast_diagonal_blocks(&m->fast), factor_modes);
 	pass(m, system, NULL, 0, groups, take_right_side);
-	square = total(m->sums, groups);
+	m->scale = sqrt(total(m->sums, groups));
 	for (size_t i = 0; i < all; i++)
 		m->x[i] = m->direction[i] = m->product[i] = 0;
-	if (starts_at_zero(system))
-		return square;
-	pass(m, system, NULL, 0, groups, take_start);
-	pass(m, system, NULL, 0, groups, multiply_start);
-	for (size_t i = 0; i < all; i++)
-		m->residual[i] -= m->product[i];
-	return square;
+	if (!starts_at_zero(system)) {
+		pass(m, system, NULL, 0, groups, take_start);
+		pass(m, system, NULL, 0, groups, multiply_start);
+		for (size_t i = 0; i < all; i++)
+			m->residual[i] -= m->product[i];
+	}
+	if (m->scale > 0)
+		rescale(m, 1 / m->scale);
 }
 
 /* alpha p in the norm of the rule. */
@@ -232,7 +250,7 @@ static double increment(
 
 	for (int f = 0; f < system->faces; f++)
 		for (int a = 0; a < system->layers; a++) {
-			double change = fabs(alpha * m->direction[(size_t)f * m->columns.stride + (size_t)a]);
+			double change = fabs(alpha * m->scale * m->direction[(size_t)f * m->columns.stride + (size_t)a]);
 
 			if (norm == NORM_LINF)
 				sum = change > sum || isnan(change) ? change : sum;
@@ -246,21 +264,23 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 {
 	struct memory *m = memory;
 	int groups = m->columns.groups, done = 0;
-	double limit = rule->residual * rule->residual * begin(m, system), alpha = 0, last = 0;
+	double alpha = 0, last = 0;
 	bool stop = false;
+
+	begin(m, system);
 
 	for (;; done++) {
 		double square, energy, work;
 
 		pass(m, system, rule, alpha, groups, take_step);
 		square = total(m->sums, groups);
-		stop = stop || (rule->criterion == CRITERION_RESIDUAL && square <= limit);
+		stop = stop || (rule->criterion == CRITERION_RESIDUAL && square <= rule->residual * rule->residual);
 		if (stop || square == 0)
 			break;
 		if (isnan(square) || done == rule->max_iterations)
 			return done ? -done : -1;
-		pass(m, system, rule, 0, m->columns.blocks, solve_modes);
-		energy = total(m->sums, m->columns.blocks);
+		pass(m, system, rule, 0, fast_diagonal_blocks(&m->fast), solve_modes);
+		energy = total(m->sums, fast_diagonal_blocks(&m->fast));
 		pass(m, system, rule, last > 0 ? energy / last : 0, groups, turn);
 		pass(m, system, rule, 0, groups, multiply);
 		work = total(m->sums, groups);
@@ -269,6 +289,8 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 		stop = rule->criterion == CRITERION_INCREMENT &&
 			   increment(m, system, rule->norm, alpha) < rule->tolerance;
 	}
+	if (m->scale > 0)
+		rescale(m, m->scale);
 	pass(m, system, rule, 0, groups, give_solution);
 	return done;
 }

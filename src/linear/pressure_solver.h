@@ -19,6 +19,7 @@ struct stopping_rule {
 struct pressure_options {
 	double relaxation; /* over-relaxation factor, 1; 0: chosen by the method */
 	int threads;
+	bool symmetric; /* the operator */
 };
 
 struct pressure_solver {
@@ -38,7 +39,7 @@ struct pressure_solver {
 };
 
 extern const struct pressure_solver block_gauss_seidel, block_gauss_seidel_factored,
-	red_black_line_relaxation, conjugate_gradients, lapack_band;
+	red_black_line_relaxation, conjugate_gradients, block_direct, lapack_band;
 
 /* The method that a config names. */
 const struct pressure_solver *pressure_solver_find(int method);

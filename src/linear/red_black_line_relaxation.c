@@ -44,7 +44,6 @@ struct memory {
 	double *block;
 };
 
-
 static size_t layout(struct memory *m, double *block)
 {
 	size_t vectors = (size_t)m->faces * m->stride, around = m->stride + LANES;

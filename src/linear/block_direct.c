@@ -1,0 +1,391 @@
+/* A direct solution of the symmetric operator by columns. Eliminating the columns of layers from the left
+ * leaves for column f the dense matrix S_f = D_f - C_f X_{f-1} C_f^T, with X = S^-1, D_f what the column
+ * does to itself and C_f what it does with the column before (both tridiagonal over the layers). X is
+ * formed by Gauss-Jordan elimination, which needs no pivoting as S is positive definite, so that a solve
+ * is two products with X per column. Rounding is taken back by solving again for the residual. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "linear/columns.h"
+#include "linear/pressure_solver.h"
+
+struct memory {
+	struct columns columns;
+	int blocks;    /* vectors in a row of X */
+	size_t row;    /* LANES blocks */
+	double *x;     /* [faces][layers][row]: X of each column */
+	double *lower; /* [faces][row]: C_f from layer a to a - 1 of the column before */
+	double *same;  /* [faces][row]: to a */
+	double *upper; /* [faces][row]: to a + 1 */
+	double *diagonal, *above; /* [row], of D of the column at hand: itself, and with the layer above */
+	double *right, *given; /* columns: right side, then solution; X times the eliminated right side */
+	double *block;
+};
+
+static size_t layout(struct memory *m, double *block)
+{
+	size_t faces = (size_t)m->columns.faces, layers = (size_t)m->columns.layers;
+	size_t all = columns_count(&m->columns);
+	struct {
+		double **part;
+		size_t count;
+	} const parts[] = {{&m->x, faces * layers * m->row}, {&m->lower, faces * m->row},
+		{&m->same, faces * m->row}, {&m->upper, faces * m->row},
+		{&m->diagonal, m->row}, {&m->above, m->row}, {&m->right, all}, {&m->given, all}};
+	size_t at = 0;
+
+	for (size_t i = 0; i < sizeof parts / sizeof *parts; at += parts[i++].count)
+		*parts[i].part = block ? block + at : NULL;
+	return at;
+}
+
+static void destroy(void *memory)
+{
+	if (memory)
+		free(((struct memory *)memory)->block);
+	free(memory);
+}
+
+static int create(
+	int layers, int faces, const struct pressure_options *options, void **out, struct error *err)
+{
+	struct memory *m = calloc(1, sizeof *m);
+	size_t count;
+
+	(void)options;
+	if (!m)
+		return error_memory(err, sizeof *m);
+	m->columns = columns_make(layers, faces);
+	m->blocks = (layers + LANES - 1) / LANES;
+	m->row = (size_t)m->blocks * LANES;
+	count = layout(m, NULL);
+	m->block = calloc(count, sizeof *m->block);
+	if (!m->block) {
+		destroy(m);
+		return error_memory(err, count * sizeof *m->block);
+	}
+	(void)layout(m, m->block);
+	*out = m;
+	return 0;
+}
+
+/* Layer numbers of the lanes of a vector. */
+KERNEL_PART v8 lane_number(int k)
+{
+	return (v8){0, 1, 2, 3, 4, 5, 6, 7} + (double)(k * LANES);
+}
+
+#define one_where(condition) ((v8){0} - __builtin_convertvector(condition, v8))
+
+/* Lanes a - 1 and a + 1 of a row of vectors. */
+KERNEL_PART v8 lane_before(const v8 *row, int k)
+{
+	v8 before = k > 0 ? row[k - 1] : (v8){0};
+
+	return __builtin_shufflevector(before, row[k], 7, 8, 9, 10, 11, 12, 13, 14);
+}
+
+KERNEL_PART v8 lane_after(const v8 *row, int k, int blocks)
+{
+	v8 after = k + 1 < blocks ? row[k + 1] : (v8){0};
+
+	return __builtin_shufflevector(row[k], after, 1, 2, 3, 4, 5, 6, 7, 8);
+}
+
+/* What layer a of a cell has of each product of two of its corners. With P, S, C the factors of J and D in
+ * T/sqrt(h) it is P^2 + 2 P S + S^2 + C^2 (of its right lower and left upper corner with itself, and minus
+ * that of the two), P^2 - 2 P S + S^2 + C^2 (of the others likewise), and P^2 - S^2 - C^2 of a lower with
+ * the upper one of the same side, and minus that along x. */
+struct corners {
+	v8 plus[COLUMNS_BLOCKS_MAX], minus[COLUMNS_BLOCKS_MAX], apart[COLUMNS_BLOCKS_MAX];
+};
+
+KERNEL_PART void fill_corners(
+	const struct pressure_cells *cells, int i, int layers, struct corners *out, int blocks)
+{
+	double pp = cells->stretch[i], lean = cells->lean[i], tilt = cells->tilt[i];
+
+	for (int k = 0; k < blocks; k++) {
+		v8 a = lane_number(k), s = lean * a + tilt, inside = one_where(a < (double)layers);
+		v8 twice = 2 * cells->cross * s;
+		v8 square = (s * s + cells->quarter_nn) * cells->inverse[i];
+
+		out->plus[k] = inside * (pp + twice + square);
+		out->minus[k] = inside * (pp - twice + square);
+		out->apart[k] = inside * (pp - square);
+	}
+}
+
+/* C_f, and of D_f the diagonal and the coupling to the layer above, from the cells on both sides. */
+KERNEL_PART void fill_column(struct memory *m, const bool *dry, int f, const struct corners *left,
+	const struct corners *right, int blocks)
+{
+	size_t at = (size_t)f * (size_t)blocks * LANES;
+	double wet = !dry[f], coupled = f > 0 && !dry[f] && !dry[f - 1];
+	int n = m->columns.layers;
+
+	for (int k = 0; k < blocks; k++, at += LANES) {
+		v8 a = lane_number(k), inside = coupled * one_where(a < (double)n);
+		v8 below_top = coupled * one_where(a < (double)(n - 1)); /* q = 0 at the surface */
+		v8 diagonal = left->plus[k] + lane_before(left->minus, k) + right->minus[k] +
+					  lane_before(right->plus, k);
+
+		v8_store(m->diagonal + k * LANES, wet * diagonal + (1 - wet));
+		v8_store(m->above + k * LANES, wet * (left->apart[k] + right->apart[k]));
+		v8_store(m->same + at, -inside * (left->apart[k] + lane_before(left->apart, k)));
+		v8_store(m->upper + at, -below_top * left->plus[k]);
+		v8_store(m->lower + at, -inside * lane_before(left->minus, k));
+	}
+}
+
+/* Add D_f to the matrix of column f. */
+static void add_diagonal(const struct memory *m, double *x)
+{
+	int n = m->columns.layers;
+
+	for (int a = 0; a < n; a++, x += m->row) {
+		x[a] += m->diagonal[a];
+		if (a + 1 < n) {
+			x[a + 1] += m->above[a];
+			x[m->row + (size_t)a] += m->above[a];
+		}
+	}
+}
+
+/* x = -C y C^T, with y the X of the column before. */
+KERNEL_PART void take_out(struct memory *m, int f, const double *y, double *x, int blocks)
+{
+	size_t row = (size_t)blocks * LANES, at = (size_t)f * row;
+	int n = m->columns.layers;
+
+	for (int a = 0; a < n; a++) {
+		const double *here = y + (size_t)a * row;
+		const double *below = a > 0 ? here - row : here, *above = a + 1 < n ? here + row : here;
+		double lower = m->lower[at + (size_t)a], same = m->same[at + (size_t)a];
+		double upper = m->upper[at + (size_t)a], *to = x + (size_t)a * row;
+		v8 product[COLUMNS_BLOCKS_MAX];
+
+		for (int k = 0; k < blocks; k++)
+			product[k] = lower * v8_load(below + k * LANES) + same * v8_load(here + k * LANES) +
+						 upper * v8_load(above + k * LANES);
+		for (int k = 0; k < blocks; k++)
+			v8_store(to + k * LANES,
+				(v8){0} - (lane_before(product, k) * v8_load(m->lower + at + k * LANES) +
+							  product[k] * v8_load(m->same + at + k * LANES) +
+							  lane_after(product, k, blocks) * v8_load(m->upper + at + k * LANES)));
+	}
+}
+
+/* What one elimination needs of its one or two pivots. */
+struct pivots {
+	v8 first[COLUMNS_BLOCKS_MAX], second[COLUMNS_BLOCKS_MAX]; /* their rows of the inverse */
+	v8 kept[COLUMNS_BLOCKS_MAX]; /* 0 in their columns, else 1 */
+};
+
+/* Rows p and p + 1 of the matrix into those of the inverse. */
+KERNEL_PART void take_pivots(struct pivots *pivots, double *x, int p, int blocks)
+{
+	double *one = x + (size_t)p * (size_t)blocks * LANES, *two = one + (size_t)blocks * LANES;
+	double a = one[p], b = one[p + 1], c = two[p + 1], scale = 1 / (a * c - b * b);
+	double aa = c * scale, ab = -b * scale, bb = a * scale;
+
+	for (int k = 0; k < blocks; k++) {
+		v8 is_first = one_where(lane_number(k) == p), is_second = one_where(lane_number(k) == p + 1);
+		v8 kept = 1 - (is_first + is_second);
+		v8 r = v8_load(one + k * LANES) * kept + is_first;
+		v8 q = v8_load(two + k * LANES) * kept + is_second;
+
+		pivots->kept[k] = kept;
+		pivots->first[k] = aa * r + ab * q;
+		pivots->second[k] = ab * r + bb * q;
+	}
+}
+
+/* One pivot, the last of an odd number. */
+KERNEL_PART void take_pivot(struct pivots *pivots, double *x, int p, int blocks)
+{
+	double *one = x + (size_t)p * (size_t)blocks * LANES, scale = 1 / one[p];
+
+	for (int k = 0; k < blocks; k++) {
+		v8 is_first = one_where(lane_number(k) == p);
+
+		pivots->kept[k] = 1 - is_first;
+		pivots->first[k] = scale * (v8_load(one + k * LANES) * pivots->kept[k] + is_first);
+	}
+}
+
+/* The inverse of a positive definite matrix in place, two rows at a time. */
+KERNEL_PART void invert(double *x, int n, int blocks)
+{
+	size_t row = (size_t)blocks * LANES;
+	struct pivots pivots;
+
+	for (int p = 0; p + 1 < n; p += 2) {
+		take_pivots(&pivots, x, p, blocks);
+		for (int i = 2; i < n; i++) { /* the next pivots first: they are waited for */
+			double *to = x + (size_t)(p + i < n ? p + i : p + i - n) * row;
+			double f = to[p], g = to[p + 1];
+
+			for (int k = 0; k < blocks; k++)
+				v8_store(to + k * LANES, v8_load(to + k * LANES) * pivots.kept[k] -
+											 f * pivots.first[k] - g * pivots.second[k]);
+		}
+		for (int k = 0; k < blocks; k++) {
+			v8_store(x + (size_t)p * row + k * LANES, pivots.first[k]);
+			v8_store(x + (size_t)(p + 1) * row + k * LANES, pivots.second[k]);
+		}
+	}
+	if (n % 2 == 0)
+		return;
+	take_pivot(&pivots, x, n - 1, blocks);
+	for (int a = 0; a + 1 < n; a++) {
+		double *to = x + (size_t)a * row, f = to[n - 1];
+
+		for (int k = 0; k < blocks; k++)
+			v8_store(to + k * LANES,
+				v8_load(to + k * LANES) * pivots.kept[k] - f * pivots.first[k]);
+	}
+	for (int k = 0; k < blocks; k++)
+		v8_store(x + (size_t)(n - 1) * row + k * LANES, pivots.first[k]);
+}
+
+KERNEL_PART void factor_blocks(struct memory *m, const struct pressure_system *system, int blocks)
+{
+	int n = m->columns.layers;
+	size_t square = (size_t)n * m->row;
+	struct corners left, right;
+
+	fill_corners(&system->cells, 0, n, &left, blocks);
+	for (int f = 0; f < m->columns.faces; f++) {
+		double *x = m->x + (size_t)f * square;
+
+		fill_corners(&system->cells, f + 1, n, &right, blocks);
+		fill_column(m, system->cells.dry, f, &left, &right, blocks);
+		if (f > 0)
+			take_out(m, f, x - square, x, blocks);
+		else
+			memset(x, 0, square * sizeof *x);
+		add_diagonal(m, x);
+		invert(x, n, blocks);
+		for (int k = 0; k < blocks; k++) {
+			left.plus[k] = right.plus[k];
+			left.minus[k] = right.minus[k];
+			left.apart[k] = right.apart[k];
+		}
+	}
+}
+
+/* y = X v. */
+KERNEL_PART void multiply(
+	const double *x, const double *v, double *y, int n, int blocks)
+{
+	size_t row = (size_t)blocks * LANES;
+	v8 sum[COLUMNS_BLOCKS_MAX];
+
+	for (int k = 0; k < blocks; k++)
+		sum[k] = (v8){0};
+	for (int a = 0; a < n; a++)
+		for (int k = 0; k < blocks; k++)
+			sum[k] += v[a] * v8_load(x + (size_t)a * row + k * LANES);
+	for (int k = 0; k < blocks; k++)
+		v8_store(y + k * LANES, sum[k]);
+}
+
+KERNEL_PART void solve_blocks(struct memory *m, int blocks)
+{
+	size_t row = (size_t)blocks * LANES, square = (size_t)m->columns.layers * row;
+	size_t stride = m->columns.stride;
+	int n = m->columns.layers, last = m->columns.faces - 1;
+	double product[(COLUMNS_BLOCKS_MAX + 2) * LANES] = {0}, *t = product + LANES;
+
+	for (int f = 0; f <= last; f++) {
+		double *right = m->right + (size_t)f * stride, *given = m->given + (size_t)f * stride;
+		size_t at = (size_t)f * row;
+
+		if (f > 0) {
+			const double *before = given - stride;
+
+			for (int k = 0; k < blocks; k++)
+				v8_store(right + k * LANES,
+					v8_load(right + k * LANES) -
+						(v8_load(m->lower + at + k * LANES) * v8_load(before + k * LANES - 1) +
+							v8_load(m->same + at + k * LANES) * v8_load(before + k * LANES) +
+							v8_load(m->upper + at + k * LANES) * v8_load(before + k * LANES + 1)));
+		}
+		multiply(m->x + (size_t)f * square, right, given, n, blocks);
+	}
+	for (int f = last; f > 0; f--) {
+		double *here = m->given + (size_t)f * stride, *before = here - stride;
+		size_t at = (size_t)f * row;
+		double back[COLUMNS_BLOCKS_MAX * LANES];
+
+		/* C^T x: what column f gives to the one before it */
+		for (int k = 0; k < blocks; k++)
+			v8_store(t + k * LANES, v8_load(m->upper + at + k * LANES) * v8_load(here + k * LANES));
+		for (int k = 0; k < blocks; k++)
+			v8_store(back + k * LANES,
+				v8_load(t + k * LANES - 1) +
+					v8_load(m->same + at + k * LANES) * v8_load(here + k * LANES));
+		for (int k = 0; k < blocks; k++)
+			v8_store(t + k * LANES, v8_load(m->lower + at + k * LANES) * v8_load(here + k * LANES));
+		for (int k = 0; k < blocks; k++)
+			v8_store(back + k * LANES, v8_load(back + k * LANES) + v8_load(t + k * LANES + 1));
+		multiply(m->x + (size_t)(f - 1) * square, back, m->right, n, blocks);
+		for (int k = 0; k < blocks; k++)
+			v8_store(before + k * LANES,
+				v8_load(before + k * LANES) - v8_load(m->right + k * LANES));
+	}
+}
+
+#define BY_BLOCKS(call, count)                                                                     \
+	switch (count) {                                                                               \
+	case 1:                                                                                        \
+		call(1);                                                                                   \
+		break;                                                                                     \
+	case 2:                                                                                        \
+		call(2);                                                                                   \
+		break;                                                                                     \
+	case 3:                                                                                        \
+		call(3);                                                                                   \
+		break;                                                                                     \
+	case 5:                                                                                        \
+		call(5);                                                                                   \
+		break;                                                                                     \
+	default:                                                                                       \
+		call(count);                                                                               \
+	}
+
+KERNEL static void factor(struct memory *m, const struct pressure_system *system)
+{
+#define FACTOR(count) factor_blocks(m, system, count)
+	BY_BLOCKS(FACTOR, m->blocks)
+}
+
+KERNEL static void sweep(struct memory *m)
+{
+#define SOLVE(count) solve_blocks(m, count)
+	BY_BLOCKS(SOLVE, m->blocks)
+}
+
+static int solve(struct pressure_system *system, const struct stopping_rule *rule, void *memory)
+{
+	struct memory *m = memory;
+	(void)rule;
+
+	factor(m, system);
+	columns_from_rows(&m->columns, system->rhs, (size_t)system->faces, m->right, 0, m->columns.groups);
+	sweep(m);
+	columns_to_rows(&m->columns, m->given, pressure_system_x(system, 0), system->x_stride, 0,
+		m->columns.groups);
+	return 1;
+}
+
+const struct pressure_solver block_direct = {
+	.name = "block-direct",
+	.matrix_free = true,
+	.symmetric_only = true,
+	.create = create,
+	.solve = solve,
+	.free = destroy,
+};
