@@ -4,6 +4,7 @@ ifeq ($(origin CC),default)
 CC := gcc
 endif
 PKGS := hdf5 yaml-0.1 libxxhash
+LOADED := lapacke # when it is asked for: linked, it would slow every start
 BUILD ?= build
 BIN ?= bin
 LIB ?= libtalus.a
@@ -21,7 +22,7 @@ OPT ?= -O3 -ffp-contract=off -fno-math-errno -fno-trapping-math
 WARN := -Wall -Wextra -Wconversion -Wshadow -Wvla -Wstrict-prototypes -Wmissing-prototypes -Wpointer-arith
 CFLAGS_ALL = -std=c11 -D_GNU_SOURCE -fopenmp -g $(OPT) $(WARN) $(WERROR) -Iinclude -Isrc $(PKG_CFLAGS) $(CFLAGS)
 # Asked once, when first needed: targets that install the libraries run before they are there.
-PKG_CFLAGS = $(eval PKG_CFLAGS := $(patsubst -I%,-isystem %,$(call pkg_config,--cflags,$(PKGS))))$(PKG_CFLAGS)
+PKG_CFLAGS = $(eval PKG_CFLAGS := $(patsubst -I%,-isystem %,$(call pkg_config,--cflags,$(PKGS) $(LOADED))))$(PKG_CFLAGS)
 PKG_LIBS = $(eval PKG_LIBS := -lhdf5_hl $(call pkg_config,--libs,$(PKGS)) -lm)$(PKG_LIBS)
 pkg_config = $(if $(shell pkg-config --exists $2 2>/dev/null && echo yes),$(shell pkg-config $1 $2),$(error \
 	missing libraries ($2): run `make deps`))

@@ -83,6 +83,7 @@ struct config {
 		double residual;    /* true relative residual asked for, 1 */
 		int norm;           /* enum norm_kind */
 		double tolerance;   /* of the increment of a sweep, in p/rho units, m2/s2 */
+		double relaxation;  /* over-relaxation factor of a relaxation, 1; 0: by layers */
 		int max_iterations; /* sweeps after which the solver is said not to converge */
 	} pressure_solver;
 	struct {

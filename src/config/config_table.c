@@ -112,8 +112,9 @@ static const struct field fields[] = {
 		"where friction balances the slope in P1 (21): static: only at rest; printed: also in motion"),
 
 	GROUP(pressure_solver, 0, "the linear system of the non-hydrostatic pressure"),
-	CHOICE("pressure_solver.method", pressure_solver.method, 0, "block-gauss-seidel", methods,
-		"block-gauss-seidel: one tridiagonal solve per layer and sweep (P1)"),
+	CHOICE("pressure_solver.method", pressure_solver.method, 0, "auto", methods,
+		"auto: conjugate-gradients or block-direct, by what the last steps cost; "
+		"block-gauss-seidel: as P1"),
 	CHOICE("pressure_solver.operator", pressure_solver.operator_, 0, "symmetric", operators,
 		"discrete operator: symmetric, or pointwise as P1 Appendix A (for its tables)"),
 	CHOICE("pressure_solver.start", pressure_solver.start, 0, "zero", starts,
@@ -126,6 +127,8 @@ static const struct field fields[] = {
 		"norm of a sweep's increment that stops the iteration"),
 	REAL(pressure_solver.tolerance, 0, "m2/s2", "1e-6 m2/s2", "(0, inf)",
 		"value of that norm at which it stops"),
+	REAL(pressure_solver.relaxation, 0, "1", "0", "[0, 2)",
+		"over-relaxation factor of red-black-line-relaxation; 0: chosen from the number of layers"),
 	INTEGER(pressure_solver.max_iterations, 0, "20000", "[1, inf)",
 		"sweeps after which the solver has failed"),
 

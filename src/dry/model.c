@@ -78,9 +78,12 @@ static size_t layout(struct model_state *s, double *memory)
 	return (7 + 5 * n + 2 * coarse) * stride + (6 + 2 * n) * faces + 2 * n + 3;
 }
 
-static int projection_init(struct model_state *s, struct projection *problem, struct error *err)
+static int projection_init(struct model_state *s, const struct config *config,
+	struct projection *problem, struct error *err)
 {
-	const struct pressure_options options = {.threads = s->threads};
+	const struct pressure_options options = {.relaxation = config->pressure_solver.relaxation,
+		.threads = s->threads,
+		.symmetric = s->operator_->symmetric};
 
 	TRY(pressure_system_init(
 		&problem->system, problem->layers, s->grid.faces, !s->solver->matrix_free, err));
@@ -147,8 +150,8 @@ static int create(const struct config *config, struct model_state **out, struct 
 		return error_memory(err, count * sizeof *s->memory);
 	}
 	(void)layout(s, s->memory);
-	if ((s->par.non_hydrostatic && projection_init(s, &s->full, err)) ||
-		(s->coarse.layers && projection_init(s, &s->coarse, err))) {
+	if ((s->par.non_hydrostatic && projection_init(s, config, &s->full, err)) ||
+		(s->coarse.layers && projection_init(s, config, &s->coarse, err))) {
 		destroy(s);
 		return -1;
 	}

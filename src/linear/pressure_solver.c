@@ -7,8 +7,10 @@ static const struct pressure_solver *const solvers[] = {
 	[METHOD_AUTO] = &automatic,
 	[METHOD_BLOCK_GAUSS_SEIDEL] = &block_gauss_seidel,
 	[METHOD_BLOCK_GAUSS_SEIDEL_FACTORED] = &block_gauss_seidel_factored,
+	[METHOD_RED_BLACK_LINE_RELAXATION] = &red_black_line_relaxation,
 	[METHOD_CONJUGATE_GRADIENTS] = &conjugate_gradients,
 	[METHOD_BLOCK_DIRECT] = &block_direct,
+	[METHOD_LAPACK_BAND] = &lapack_band,
 };
 
 const struct pressure_solver *pressure_solver_find(int method, bool symmetric)

@@ -19,6 +19,7 @@ struct stopping_rule {
 struct pressure_options {
 	double relaxation; /* over-relaxation factor, 1; 0: chosen by the method */
 	int threads;
+	bool symmetric; /* the operator */
 };
 
 struct pressure_solver {

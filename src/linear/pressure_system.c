@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/kernel.h"
 
@@ -102,7 +103,7 @@ KERNEL static void bands_residual(const struct pressure_system *system, int a, d
 }
 
 /* Calls `visit` with the residual of every layer, bottom first. */
-static void residual_rows(const struct pressure_system *system,
+static void each_residual_row(const struct pressure_system *system,
 	void (*visit)(const struct pressure_system *system, int a, const double *row, void *context),
 	void *context)
 {
@@ -130,6 +131,7 @@ static void residual_rows(const struct pressure_system *system,
 
 struct squares {
 	double residual, scale;
+	double *rows; /* NULL, or where the residual goes */
 };
 
 KERNEL static void add_squares(
@@ -138,16 +140,24 @@ KERNEL static void add_squares(
 	struct squares *sum = context;
 	const double *rhs = system->rhs + pressure_system_row(system, a);
 
+	if (sum->rows)
+		memcpy(
+			sum->rows + pressure_system_row(system, a), row, (size_t)system->faces * sizeof *row);
 	sum->residual += kernel_dot(row, row, system->faces);
 	sum->scale += kernel_dot(rhs, rhs, system->faces);
 }
 
 double pressure_system_residual(const struct pressure_system *system)
 {
-	struct squares sum = {0};
+	return pressure_system_residual_rows(system, NULL);
+}
 
-	residual_rows(system, add_squares, &sum);
-	return sum.scale > 0 ? sqrt(sum.residual / sum.scale) : 0;
+double pressure_system_residual_rows(const struct pressure_system *system, double *rows)
+{
+	struct squares sum = {.rows = rows};
+
+	each_residual_row(system, add_squares, &sum);
+	return sum.residual == 0 ? 0 : sqrt(sum.residual / sum.scale);
 }
 
 struct worst {
@@ -170,6 +180,6 @@ int pressure_system_worst_face(const struct pressure_system *system)
 {
 	struct worst worst = {-1, 0};
 
-	residual_rows(system, find_worst, &worst);
+	each_residual_row(system, find_worst, &worst);
 	return worst.face;
 }

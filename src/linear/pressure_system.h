@@ -71,8 +71,11 @@ static inline double *pressure_system_x(const struct pressure_system *system, in
 	return system->x + (size_t)(a + 1) * system->x_stride + 1;
 }
 
-/* True relative residual |rhs - A x| / |rhs| in the Euclidean norm; 0 when the right side is 0. */
+/* True relative residual |rhs - A x| / |rhs| in the Euclidean norm, of 0 = A 0 it is 0. */
 double pressure_system_residual(const struct pressure_system *system);
+
+/* The same, with rhs - A x in `rows` [layers][faces]. */
+double pressure_system_residual_rows(const struct pressure_system *system, double *rows);
 
 /* The face of the largest residual, or of the first that is not a number: where a solver failed. */
 int pressure_system_worst_face(const struct pressure_system *system);
