@@ -11,11 +11,12 @@
 enum model_kind { MODEL_DRY };
 enum pressure_kind { PRESSURE_HYDROSTATIC, PRESSURE_NON_HYDROSTATIC };
 enum boundary_kind { BOUNDARY_WALL, BOUNDARY_OUTFLOW };
-enum shape_kind { SHAPE_COLUMN };
+enum shape_kind { SHAPE_COLUMN, SHAPE_HEAP };
 enum law_kind { LAW_MU_I };
 enum wave_speed_kind { WAVE_SPEED_FASTEST, WAVE_SPEED_MEAN };
 enum reconstruction_kind { RECONSTRUCTION_STATIC, RECONSTRUCTION_PRINTED };
 enum method_kind {
+	METHOD_AUTO,
 	METHOD_BLOCK_GAUSS_SEIDEL,
 	METHOD_BLOCK_GAUSS_SEIDEL_FACTORED,
 	METHOD_RED_BLACK_LINE_RELAXATION,
@@ -48,8 +49,10 @@ struct config {
 	} domain;
 	struct {
 		int shape;     /* enum shape_kind */
-		double height; /* of the column above the bed layer, m */
+		double height; /* of the column, or of the top of the heap, above the bed layer, m */
 		double front;  /* position of the gate, m */
+		double centre; /* of the heap, m */
+		double width;  /* of the heap: where its height has fallen to 1/e, m */
 	} initial;
 	struct {
 		double diameter;       /* d_s, m */

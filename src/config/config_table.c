@@ -31,13 +31,15 @@ static const char *const pressures[] = {
 	[PRESSURE_HYDROSTATIC] = "hydrostatic", [PRESSURE_NON_HYDROSTATIC] = "non-hydrostatic", NULL};
 static const char *const boundaries[] = {
 	[BOUNDARY_WALL] = "wall", [BOUNDARY_OUTFLOW] = "outflow", NULL};
-static const char *const shapes[] = {[SHAPE_COLUMN] = "column", NULL};
+static const char *const shapes[] = {
+	[SHAPE_COLUMN] = "column", [SHAPE_HEAP] = "heap", NULL};
 static const char *const laws[] = {[LAW_MU_I] = "mu_i", NULL};
 static const char *const wave_speeds[] = {
 	[WAVE_SPEED_FASTEST] = "fastest", [WAVE_SPEED_MEAN] = "mean", NULL};
 static const char *const reconstructions[] = {
 	[RECONSTRUCTION_STATIC] = "static", [RECONSTRUCTION_PRINTED] = "printed", NULL};
-static const char *const methods[] = {[METHOD_BLOCK_GAUSS_SEIDEL] = "block-gauss-seidel",
+static const char *const methods[] = {[METHOD_AUTO] = "auto",
+	[METHOD_BLOCK_GAUSS_SEIDEL] = "block-gauss-seidel",
 	[METHOD_BLOCK_GAUSS_SEIDEL_FACTORED] = "block-gauss-seidel-factored",
 	[METHOD_RED_BLACK_LINE_RELAXATION] = "red-black-line-relaxation",
 	[METHOD_CONJUGATE_GRADIENTS] = "conjugate-gradients",
@@ -75,9 +77,11 @@ static const struct field fields[] = {
 
 	GROUP(initial, 0, "the grains at rest at time 0, above the bed layer"),
 	CHOICE("initial.shape", initial.shape, 0, "column", shapes,
-		"column: one height from the left end to the front"),
-	REAL(initial.height, 0, "m", "0.14 m", "(0, inf)", "height of the column above the bed layer"),
+		"column: one height from the left end to the front; heap: height exp(-((x - centre)/width)^2)"),
+	REAL(initial.height, 0, "m", "0.14 m", "(0, inf)", "height of the column, or of the heap's top, above the bed layer"),
 	REAL(initial.front, 0, "m", "0 m", NULL, "position of the gate, between x_min and x_max"),
+	REAL(initial.centre, 0, "m", "0 m", NULL, "of the heap"),
+	REAL(initial.width, 0, "m", "0.5 m", "(0, inf)", "of the heap: where its height has fallen to 1/e"),
 
 	GROUP(grains, 0, "the material"),
 	REAL(grains.diameter, 0, "m", "0.7 mm", "(0, inf)", "grain diameter (d_s)"),

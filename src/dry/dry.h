@@ -104,6 +104,7 @@ struct model_state {
 	double cpu[3]; /* transport, friction, pressure, s */
 	int iterations, coarse_iterations;
 	double residual;
+	int method; /* enum method_kind that solved the full system; 0 before the first step */
 
 	double *x, *layer_middle, *layer_interface; /* axes of the run file */
 	double *memory;
@@ -139,7 +140,7 @@ int dry_pressure(struct model_state *s, double dt, struct error *err);
 void dry_add_pressure_force(struct model_state *s, const double *p, double dt);
 
 /* Series and profiles (observe.c), as struct model describes them. */
-enum { DRY_SERIES_COUNT = 13, DRY_PROFILE_COUNT = 6 };
+enum { DRY_SERIES_COUNT = 14, DRY_PROFILE_COUNT = 6 };
 extern const struct series dry_series[DRY_SERIES_COUNT];
 extern const struct profile dry_profiles[DRY_PROFILE_COUNT];
 void dry_observe(const struct model_state *s, double *values);

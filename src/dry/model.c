@@ -82,7 +82,7 @@ static int projection_init(struct model_state *s, const struct config *config,
 	struct projection *problem, struct error *err)
 {
 	const struct pressure_options options = {.relaxation = config->pressure_solver.relaxation,
-		.threads = 1,
+		.threads = s->threads,
 		.symmetric = s->operator_->symmetric};
 
 	TRY(pressure_system_init(
@@ -134,7 +134,7 @@ static int create(const struct config *config, struct model_state **out, struct 
 	s->layers = s->full.layers = config->layers;
 	s->threads = config->threads;
 	s->operator_ = operators[config->pressure_solver.operator_];
-	s->solver = pressure_solver_find(config->pressure_solver.method);
+	s->solver = pressure_solver_find(config->pressure_solver.method, s->operator_->symmetric);
 	s->rule = (struct stopping_rule){.criterion = config->pressure_solver.criterion,
 		.norm = config->pressure_solver.norm,
 		.tolerance = config->pressure_solver.tolerance,
@@ -311,6 +311,19 @@ static struct axes axes(const struct model_state *s)
 	return (struct axes){s->grid.cells, s->layers, s->x, s->layer_middle, s->layer_interface};
 }
 
+/* What a pressure solver keeps between steps, if it does. */
+static size_t solver_array(
+	const struct model_state *s, const struct projection *problem, const char *name, struct array *out)
+{
+	size_t count;
+
+	if (!problem->memory || !s->solver->kept)
+		return 0;
+	*out = (struct array){name, s->solver->kept(problem->memory, &count), {1, 0}};
+	out->extent[1] = count;
+	return 1;
+}
+
 static size_t arrays(struct model_state *s, struct array *list)
 {
 	size_t stride = s->grid.stride, faces = (size_t)s->grid.faces, n = (size_t)s->layers, i = 0;
@@ -321,6 +334,8 @@ static size_t arrays(struct model_state *s, struct array *list)
 	list[i++] = (struct array){"q", s->q, {n, faces}};
 	list[i++] = (struct array){"dq", s->dq, {n, faces}};
 	list[i++] = (struct array){"mass", s->mass, {1, 2}};
+	i += solver_array(s, &s->full, "solver", &list[i]);
+	i += solver_array(s, &s->coarse, "coarse_solver", &list[i]);
 	return i;
 }
 

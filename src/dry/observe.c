@@ -14,6 +14,7 @@ enum {
 	PRESSURE_ITERATIONS,
 	COARSE_ITERATIONS,
 	PRESSURE_RESIDUAL,
+	PRESSURE_METHOD,
 	CPU_TRANSPORT,
 	CPU_FRICTION,
 	CPU_PRESSURE,
@@ -62,6 +63,13 @@ const struct series dry_series[DRY_SERIES_COUNT] = {
 	[PRESSURE_RESIDUAL] = {.name = "pressure_residual",
 		.units = "1",
 		.long_name = "true relative residual of the pressure system",
+		.slope_of = -1},
+	[PRESSURE_METHOD] = {.name = "pressure_method",
+		.units = "1",
+		.long_name = "method of the pressure solve: 0 none, 1 block-gauss-seidel, 2 "
+					 "block-gauss-seidel-factored, 3 red-black-line-relaxation, 4 "
+					 "conjugate-gradients, 5 block-direct, 6 lapack-band",
+		.whole = true,
 		.slope_of = -1},
 	[CPU_TRANSPORT] = {.name = "cpu_transport",
 		.units = "s",
@@ -141,6 +149,7 @@ void dry_observe(const struct model_state *s, double *values)
 	values[PRESSURE_ITERATIONS] = s->iterations;
 	values[COARSE_ITERATIONS] = s->coarse_iterations;
 	values[PRESSURE_RESIDUAL] = s->residual;
+	values[PRESSURE_METHOD] = s->method;
 	values[CPU_TRANSPORT] = s->cpu[0];
 	values[CPU_FRICTION] = s->cpu[1];
 	values[CPU_PRESSURE] = s->cpu[2];

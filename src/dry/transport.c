@@ -3,8 +3,7 @@
 #include <string.h>
 
 #include "base/kernel.h"
-#include "dry/chunk.h"
-#include "dry/dry.h"
+#include "dry/force.h"
 
 /* |d eta/dx| up to this times mu is at rest: exactly 1 would lose slopes that are at the limit. */
 #define REST_MARGIN 1.001
@@ -192,29 +191,33 @@ KERNEL_PART void advance_layers(
 	struct model_state *s, const struct window *r, struct chunk chunk, double dt)
 {
 	size_t stride = s->grid.stride, left = (size_t)chunk.first - 1; /* of the first face */
-	double below[ROW] = {0}, above[ROW] = {0}, flux[ROW], half[ROW], ratio = dt / s->grid.dx;
+	double jumps[2][ROW] = {0}, flux[ROW], half[ROW], ratio = dt / s->grid.dx;
 	int cells = chunk.last - chunk.first + 1, faces = cells + 1, at = (int)left - r->first;
 	int top = s->layers - 1;
 	const double *h = s->h + left;
+	struct force force;
 
+	if (s->par.non_hydrostatic)
+		force_begin(s, chunk, &force);
 	for (int a = 0; a <= top; a++) {
 		size_t row = (size_t)a * stride + left;
 		size_t up = a < top ? row + stride : row, down = a > 0 ? row - stride : row;
 		const double *u = s->u + row, *w = s->w + row;
+		double *below = jumps[a % 2], *above = jumps[(a + 1) % 2];
 
 		if (a < top)
 			add_jump(faces, s->layers, h, u, s->mean + left, below, above);
 		else
-			memset(above, 0, sizeof above); /* exactly 0 at the surface */
+			memset(above, 0, sizeof jumps[0]); /* exactly 0 at the surface */
 		layer_fluxes(r, at, faces, s->layers, true, h, u, u, s->u + down, s->u + up, below, above,
 			flux, half);
 		advance(cells, ratio, flux, half, s->U + row + 1);
-		if (s->par.non_hydrostatic) {
-			layer_fluxes(r, at, faces, s->layers, false, h, u, w, s->w + down, s->w + up, below,
-				above, flux, half);
-			advance(cells, ratio, flux, half, s->W + row + 1);
-		}
-		memcpy(below, above, sizeof below);
+		if (!s->par.non_hydrostatic)
+			continue;
+		layer_fluxes(r, at, faces, s->layers, false, h, u, w, s->w + down, s->w + up, below, above,
+			flux, half);
+		advance(cells, ratio, flux, half, s->W + row + 1);
+		force_add_layer(s, &force, chunk, a, s->q, dt);
 	}
 }
 
@@ -258,8 +261,6 @@ KERNEL static void transport(struct model_state *s, struct chunk chunk, double d
 void dry_transport(struct model_state *s, double dt)
 {
 	chunk_each(s, transport, dt);
-	if (s->par.non_hydrostatic)
-		dry_add_pressure_force(s, s->q, dt);
 	memcpy(s->h + 1, s->next + 1, (size_t)s->grid.cells * sizeof *s->h);
 	grid_fill_even(&s->grid, s->h);
 	s->mass[1] += s->par.rho * dt * (s->end_flux[1] - s->end_flux[0]);

@@ -2,7 +2,7 @@
  * leaves for column f the dense matrix S_f = D_f - C_f X_{f-1} C_f^T, with X = S^-1, D_f what the column
  * does to itself and C_f what it does with the column before (both tridiagonal over the layers). X is
  * formed by Gauss-Jordan elimination, which needs no pivoting as S is positive definite, so that a solve
- * is two products with X per column. Rounding is taken back by solving again for the residual. */
+ * is two products with X per column. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +19,9 @@ struct memory {
 	double *same;  /* [faces][row]: to a */
 	double *upper; /* [faces][row]: to a + 1 */
 	double *diagonal, *above; /* [row], of D of the column at hand: itself, and with the layer above */
-	double *right, *given; /* columns: right side, then solution; X times the eliminated right side */
+	double *start, *right; /* columns: x before, and its residual, which elimination turns over */
+	double *given;         /* columns: X times the eliminated residual, then the correction of x */
+	double *sums;          /* [groups] */
 	double *block;
 };
 
@@ -32,7 +34,8 @@ static size_t layout(struct memory *m, double *block)
 		size_t count;
 	} const parts[] = {{&m->x, faces * layers * m->row}, {&m->lower, faces * m->row},
 		{&m->same, faces * m->row}, {&m->upper, faces * m->row},
-		{&m->diagonal, m->row}, {&m->above, m->row}, {&m->right, all}, {&m->given, all}};
+		{&m->diagonal, m->row}, {&m->above, m->row}, {&m->start, all}, {&m->right, all}, {&m->given, all},
+		{&m->sums, (size_t)m->columns.groups}};
 	size_t at = 0;
 
 	for (size_t i = 0; i < sizeof parts / sizeof *parts; at += parts[i++].count)
@@ -368,21 +371,32 @@ KERNEL static void sweep(struct memory *m)
 	BY_BLOCKS(SOLVE, m->blocks)
 }
 
+/* x += A^-1 (b - A x): rounding is taken back where a solve begins from the last one. */
 static int solve(struct pressure_system *system, const struct stopping_rule *rule, void *memory)
 {
 	struct memory *m = memory;
-	(void)rule;
+	size_t all = columns_count(&m->columns);
+	int groups = m->columns.groups;
 
+	(void)rule;
 	factor(m, system);
-	columns_from_rows(&m->columns, system->rhs, (size_t)system->faces, m->right, 0, m->columns.groups);
+	columns_from_rows(
+		&m->columns, pressure_system_x(system, 0), system->x_stride, m->start, 0, groups);
+	columns_apply(&m->columns, system, m->start, m->given, m->sums, 0, groups);
+	columns_from_rows(&m->columns, system->rhs, (size_t)system->faces, m->right, 0, groups);
+	for (size_t i = 0; i < all; i++)
+		m->right[i] -= m->given[i];
 	sweep(m);
-	columns_to_rows(&m->columns, m->given, pressure_system_x(system, 0), system->x_stride, 0,
-		m->columns.groups);
+	for (size_t i = 0; i < all; i++)
+		m->given[i] += m->start[i];
+	columns_to_rows(
+		&m->columns, m->given, pressure_system_x(system, 0), system->x_stride, 0, groups);
 	return 1;
 }
 
 const struct pressure_solver block_direct = {
 	.name = "block-direct",
+	.method = METHOD_BLOCK_DIRECT,
 	.matrix_free = true,
 	.symmetric_only = true,
 	.create = create,

@@ -76,6 +76,7 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 
 const struct pressure_solver block_gauss_seidel = {
 	.name = "block-gauss-seidel",
+	.method = METHOD_BLOCK_GAUSS_SEIDEL,
 	.create = create,
 	.solve = solve,
 	.free = destroy,

@@ -95,6 +95,7 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 
 const struct pressure_solver block_gauss_seidel_factored = {
 	.name = "block-gauss-seidel-factored",
+	.method = METHOD_BLOCK_GAUSS_SEIDEL_FACTORED,
 	.create = create,
 	.solve = solve,
 	.free = destroy,

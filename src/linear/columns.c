@@ -107,33 +107,32 @@ KERNEL_PART void apply(const struct columns *columns, const struct pressure_syst
 {
 	const struct pressure_cells *cells = &system->cells;
 	size_t stride = (size_t)blocks * LANES;
-	struct terms left, right;
+	struct terms terms[2], *left = &terms[0], *right = &terms[1];
 	int f = first * LANES, rest = columns->layers % LANES;
 	v8 surface;
 
 	for (int lane = 0; lane < LANES; lane++)
 		surface[lane] = lane < rest;
 	for (int k = 0; k < blocks; k++)
-		left.low[k] = left.high[k] = (v8){0};
+		left->low[k] = left->high[k] = (v8){0};
 	if (f > 0)
-		cell_terms(cells, f, x + (size_t)(f - 1) * stride, x + (size_t)f * stride, &left, blocks);
+		cell_terms(cells, f, x + (size_t)(f - 1) * stride, x + (size_t)f * stride, left, blocks);
 	for (int g = first; g < last; g++) {
 		int end = g * LANES + group_width(columns, g);
 		v8 sum = {0};
 
 		for (; f < end; f++) {
 			const double *here = x + (size_t)f * stride;
+			struct terms *const done = left;
 
 			/* the ghost cell behind the last column has zeros for its five numbers */
-			cell_terms(cells, f + 1, here, here + stride, &right, blocks);
+			cell_terms(cells, f + 1, here, here + stride, right, blocks);
 			if (cells->dry[f])
 				memset(out + (size_t)f * stride, 0, stride * sizeof *out);
 			else
-				sum += gather(&left, &right, here, out + (size_t)f * stride, blocks, surface);
-			for (int k = 0; k < blocks; k++) {
-				left.low[k] = right.low[k];
-				left.high[k] = right.high[k];
-			}
+				sum += gather(left, right, here, out + (size_t)f * stride, blocks, surface);
+			left = right;
+			right = done;
 		}
 		sums[g] = v8_sum(sum);
 	}

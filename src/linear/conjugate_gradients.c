@@ -18,15 +18,14 @@ struct memory {
 	double *terms; /* [threads][4][stride] */
 	float *modes;    /* columns of modes */
 	double *block;
-	double scale; /* |b| */
+	double scale;       /* |b| */
+	double alpha, beta; /* of the pass at hand */
 };
 
 /* What one thread does in a pass. */
 struct part {
 	struct memory *m;
 	const struct pressure_system *system;
-	const struct stopping_rule *rule;
-	double factor; /* alpha or beta */
 	int first, last;
 };
 
@@ -86,14 +85,14 @@ static int create(
 }
 
 /* Do a pass over `count` groups or blocks, shared among the threads. */
-static void pass(struct memory *m, const struct pressure_system *system,
-	const struct stopping_rule *rule, double factor, int count, void (*work)(struct part *part))
+static void pass(struct memory *m, const struct pressure_system *system, int count,
+	void (*work)(struct part *part))
 {
 	int threads = m->threads < count ? m->threads : count;
 
 #pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
 	for (int t = 0; t < threads; t++) {
-		struct part part = {m, system, rule, factor, (int)((long)count * t / threads),
+		struct part part = {m, system, (int)((long)count * t / threads),
 			(int)((long)count * (t + 1) / threads)};
 
 		work(&part);
@@ -141,11 +140,11 @@ static void multiply_start(struct part *part)
 		part->first, part->last);
 }
 
-/* x += alpha p, r -= alpha A p (part->factor: alpha); sums: r r. Then the modes of r. */
+/* r -= alpha A p; sums: r r. Then the modes of r. */
 KERNEL static void take_step(struct part *part)
 {
 	struct memory *m = part->m;
-	double alpha = part->factor;
+	double alpha = m->alpha;
 
 	for (int g = part->first; g < part->last; g++) {
 		size_t at = group_at(m, g);
@@ -154,7 +153,6 @@ KERNEL static void take_step(struct part *part)
 		for (size_t i = at; i < at + LANES * m->columns.stride; i += LANES) {
 			v8 r = v8_load(m->residual + i) - alpha * v8_load(m->product + i);
 
-			v8_store(m->x + i, v8_load(m->x + i) + alpha * v8_load(m->direction + i));
 			v8_store(m->residual + i, r);
 			sum += r * r;
 		}
@@ -173,31 +171,41 @@ static void solve_modes(struct part *part)
 	fast_diagonal_solve(&part->m->fast, part->m->modes, part->m->sums, part->first, part->last);
 }
 
-/* p = z + beta p (part->factor: beta). */
+/* x += alpha p, with the alpha of the last step, and p = z + beta p. */
 KERNEL static void turn(struct part *part)
 {
 	struct memory *m = part->m;
-	double beta = part->factor;
+	double alpha = m->alpha, beta = m->beta;
 
 	for (int g = part->first; g < part->last; g++) {
 		size_t at = group_at(m, g);
 
 		fast_diagonal_to_layers(&m->fast, m->modes, m->product, g, g + 1);
-		for (size_t i = at; i < at + LANES * m->columns.stride; i += LANES)
-			v8_store(m->direction + i, v8_load(m->product + i) + beta * v8_load(m->direction + i));
+		for (size_t i = at; i < at + LANES * m->columns.stride; i += LANES) {
+			v8 p = v8_load(m->direction + i);
+
+			v8_store(m->x + i, v8_load(m->x + i) + alpha * p);
+			v8_store(m->direction + i, v8_load(m->product + i) + beta * p);
+		}
 	}
+}
+
+/* The last step of x, and back to units of the system. */
+KERNEL static void finish(struct part *part)
+{
+	struct memory *m = part->m;
+	double scale = m->scale > 0 ? m->scale : 1, alpha = m->alpha;
+
+	for (size_t i = group_at(m, part->first); i < group_at(m, part->last); i += LANES)
+		v8_store(m->x + i, scale * (v8_load(m->x + i) + alpha * v8_load(m->direction + i)));
+	columns_to_rows(&m->columns, m->x, pressure_system_x(part->system, 0), part->system->x_stride,
+		part->first, part->last);
 }
 
 static void multiply(struct part *part)
 {
 	columns_apply(&part->m->columns, part->system, part->m->direction, part->m->product,
 		part->m->sums, part->first, part->last);
-}
-
-static void give_solution(struct part *part)
-{
-	columns_to_rows(&part->m->columns, part->m->x, pressure_system_x(part->system, 0),
-		part->system->x_stride, part->first, part->last);
 }
 
 static bool starts_at_zero(const struct pressure_system *system)
@@ -227,14 +235,15 @@ static void begin(struct memory *m, const struct pressure_system *system)
 	size_t all = columns_count(&m->columns);
 
 	fast_diagonal_prepare(&m->fast, system);
-	pass(m, system, NULL, 0, fast_diagonal_blocks(&m->fast), factor_modes);
-	pass(m, system, NULL, 0, groups, take_right_side);
+	pass(m, system, fast_diagonal_blocks(&m->fast), factor_modes);
+	pass(m, system, groups, take_right_side);
 	m->scale = sqrt(total(m->sums, groups));
+	m->alpha = 0;
 	for (size_t i = 0; i < all; i++)
 		m->x[i] = m->direction[i] = m->product[i] = 0;
 	if (!starts_at_zero(system)) {
-		pass(m, system, NULL, 0, groups, take_start);
-		pass(m, system, NULL, 0, groups, multiply_start);
+		pass(m, system, groups, take_start);
+		pass(m, system, groups, multiply_start);
 		for (size_t i = 0; i < all; i++)
 			m->residual[i] -= m->product[i];
 	}
@@ -243,14 +252,13 @@ static void begin(struct memory *m, const struct pressure_system *system)
 }
 
 /* alpha p in the norm of the rule. */
-static double increment(
-	const struct memory *m, const struct pressure_system *system, int norm, double alpha)
+static double increment(const struct memory *m, const struct pressure_system *system, int norm)
 {
 	double sum = 0;
 
 	for (int f = 0; f < system->faces; f++)
 		for (int a = 0; a < system->layers; a++) {
-			double change = fabs(alpha * m->scale * m->direction[(size_t)f * m->columns.stride + (size_t)a]);
+			double change = fabs(m->alpha * m->scale * m->direction[(size_t)f * m->columns.stride + (size_t)a]);
 
 			if (norm == NORM_LINF)
 				sum = change > sum || isnan(change) ? change : sum;
@@ -263,40 +271,38 @@ static double increment(
 static int solve(struct pressure_system *system, const struct stopping_rule *rule, void *memory)
 {
 	struct memory *m = memory;
-	int groups = m->columns.groups, done = 0;
-	double alpha = 0, last = 0;
+	int groups = m->columns.groups, blocks = fast_diagonal_blocks(&m->fast), done = 0;
+	double limit = rule->residual * rule->residual, last = 0;
 	bool stop = false;
 
 	begin(m, system);
-
 	for (;; done++) {
-		double square, energy, work;
+		double square, energy;
 
-		pass(m, system, rule, alpha, groups, take_step);
+		pass(m, system, groups, take_step);
 		square = total(m->sums, groups);
-		stop = stop || (rule->criterion == CRITERION_RESIDUAL && square <= rule->residual * rule->residual);
+		stop = stop || (rule->criterion == CRITERION_RESIDUAL && square <= limit);
 		if (stop || square == 0)
 			break;
 		if (isnan(square) || done == rule->max_iterations)
 			return done ? -done : -1;
-		pass(m, system, rule, 0, fast_diagonal_blocks(&m->fast), solve_modes);
-		energy = total(m->sums, fast_diagonal_blocks(&m->fast));
-		pass(m, system, rule, last > 0 ? energy / last : 0, groups, turn);
-		pass(m, system, rule, 0, groups, multiply);
-		work = total(m->sums, groups);
-		alpha = energy / work;
+		pass(m, system, blocks, solve_modes);
+		energy = total(m->sums, blocks);
+		m->beta = last > 0 ? energy / last : 0;
 		last = energy;
+		pass(m, system, groups, turn);
+		pass(m, system, groups, multiply);
+		m->alpha = energy / total(m->sums, groups);
 		stop = rule->criterion == CRITERION_INCREMENT &&
-			   increment(m, system, rule->norm, alpha) < rule->tolerance;
+			   increment(m, system, rule->norm) < rule->tolerance;
 	}
-	if (m->scale > 0)
-		rescale(m, m->scale);
-	pass(m, system, rule, 0, groups, give_solution);
+	pass(m, system, groups, finish);
 	return done;
 }
 
 const struct pressure_solver conjugate_gradients = {
 	.name = "conjugate-gradients",
+	.method = METHOD_CONJUGATE_GRADIENTS,
 	.matrix_free = true,
 	.symmetric_only = true,
 	.create = create,

@@ -1,8 +1,11 @@
 #include "linear/pressure_solver.h"
 
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const struct pressure_solver *const solvers[] = {
+	[METHOD_AUTO] = &automatic,
 	[METHOD_BLOCK_GAUSS_SEIDEL] = &block_gauss_seidel,
 	[METHOD_BLOCK_GAUSS_SEIDEL_FACTORED] = &block_gauss_seidel_factored,
 	[METHOD_RED_BLACK_LINE_RELAXATION] = &red_black_line_relaxation,
@@ -11,9 +14,16 @@ static const struct pressure_solver *const solvers[] = {
 	[METHOD_LAPACK_BAND] = &lapack_band,
 };
 
-const struct pressure_solver *pressure_solver_find(int method)
+const struct pressure_solver *pressure_solver_find(int method, bool symmetric)
 {
+	if (method == METHOD_AUTO && !symmetric)
+		method = METHOD_BLOCK_GAUSS_SEIDEL_FACTORED;
 	return solvers[method];
+}
+
+int pressure_solver_chosen(const struct pressure_solver *solver, const void *memory)
+{
+	return solver->chosen ? solver->chosen(memory) : solver->method;
 }
 
 /* A right side of zeros has no scale to stop by, and needs none. */
@@ -42,9 +52,9 @@ int pressure_solver_solve(const struct pressure_solver *solver, struct pressure_
 		int done = solver->solve(system, rule, memory);
 
 		*residual = pressure_system_residual(system);
-		if (done < 0)
-			return -(total - done);
-		total += done;
+		total += abs(done);
+		if (done < 0 || !isfinite(*residual))
+			return -total;
 		if (rule->criterion != CRITERION_RESIDUAL || *residual <= rule->residual)
 			return total;
 	}

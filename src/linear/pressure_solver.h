@@ -24,6 +24,7 @@ struct pressure_options {
 
 struct pressure_solver {
 	const char *name;
+	int method;          /* enum method_kind */
 	bool matrix_free;    /* reads the cells of the symmetric operator, not the bands */
 	bool symmetric_only; /* cannot solve another operator */
 	/* Private memory for systems of this size. EX_SOFTWARE out of memory. */
@@ -35,14 +36,19 @@ struct pressure_solver {
 	int (*solve)(struct pressure_system *system, const struct stopping_rule *rule, void *memory);
 	/* What one solve leaves for the next, as part of the exact state; NULL: nothing. */
 	double *(*kept)(void *memory, size_t *count);
+	/* The method that the last solve took, enum method_kind; NULL: this one. */
+	int (*chosen)(const void *memory);
 	void (*free)(void *memory); /* NULL-safe */
 };
 
-extern const struct pressure_solver block_gauss_seidel, block_gauss_seidel_factored,
+extern const struct pressure_solver automatic, block_gauss_seidel, block_gauss_seidel_factored,
 	red_black_line_relaxation, conjugate_gradients, block_direct, lapack_band;
 
-/* The method that a config names. */
-const struct pressure_solver *pressure_solver_find(int method);
+/* The method that a config names; `auto` on a system that is not symmetric is a method for any system. */
+const struct pressure_solver *pressure_solver_find(int method, bool symmetric);
+
+/* The method that the last solve took, enum method_kind. */
+int pressure_solver_chosen(const struct pressure_solver *solver, const void *memory);
 
 /* Solve, and hold the method to the rule: where the true residual is asked for and the method's own count
  * of it was too good, it goes on from where it is. Returns as `solve`, with the true relative residual

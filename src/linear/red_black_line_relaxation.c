@@ -323,6 +323,7 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 
 const struct pressure_solver red_black_line_relaxation = {
 	.name = "red-black-line-relaxation",
+	.method = METHOD_RED_BLACK_LINE_RELAXATION,
 	.create = create,
 	.solve = solve,
 	.free = destroy,
