@@ -32,8 +32,8 @@ struct part {
 static size_t layout(struct memory *m, double *block)
 {
 	size_t all = columns_count(&m->columns);
-	size_t sums =
-		(size_t)(m->columns.groups > m->columns.blocks ? m->columns.groups : m->columns.blocks);
+	int groups = m->columns.groups, blocks = fast_diagonal_blocks(&m->fast);
+	size_t sums = (size_t)(groups > blocks ? groups : blocks);
 	struct {
 		double **part;
 		size_t count;
