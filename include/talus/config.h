@@ -110,6 +110,9 @@ int config_read(struct config *config, const char *path, const char *const *sett
 int config_parse(struct config *config, const char *text, size_t length, const char *name,
 	const char *const *settings, int count, struct error *err);
 
+/* Does this method (enum method_kind) solve the symmetric operator alone? */
+bool config_symmetric_only(int method);
+
 /* The config as YAML in SI units with every key; config_parse reads it back to the same bits. */
 void config_print(const struct config *config, struct text *out);
 

@@ -153,4 +153,9 @@ static const struct field fields[] = {
 };
 /* clang-format on */
 
+bool config_symmetric_only(int method)
+{
+	return method == METHOD_CONJUGATE_GRADIENTS || method == METHOD_BLOCK_DIRECT;
+}
+
 const struct field_table config_table = {fields, sizeof fields / sizeof *fields};

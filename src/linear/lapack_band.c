@@ -184,6 +184,7 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 
 const struct pressure_solver lapack_band = {
 	.name = "lapack-band",
+	.method = METHOD_LAPACK_BAND,
 	.create = create,
 	.solve = solve,
 	.free = destroy,
