@@ -87,12 +87,12 @@ struct model_state {
 	double *fastest; /* largest |u| of the layers, [stride], m/s */
 	double *squares; /* sum of u^2 + w^2 over the layers, [stride], m2/s2 */
 
-	double *next;       /* thickness after transport, [stride], m */
-	double end_flux[2]; /* of mass at the ends in the last step, m2/s */
+	double *next;        /* thickness after transport, [stride], m */
+	double end_flux[2];  /* of mass at the ends in the last step, m2/s */
 	const double *force; /* the pressure whose force is being added */
-	double *face[6];    /* scratch rows of faces, [faces] */
-	double *work;       /* scratch of friction, [layers][stride] */
-	bool *dry;          /* [faces], q is 0 there */
+	double *face[6];     /* scratch rows of faces, [faces] */
+	double *work;        /* scratch of friction, [layers][stride] */
+	bool *dry;           /* [faces], q is 0 there */
 
 	const struct pressure_operator *operator_;
 	const struct pressure_solver *solver;

@@ -312,8 +312,8 @@ static struct axes axes(const struct model_state *s)
 }
 
 /* What a pressure solver keeps between steps, if it does. */
-static size_t solver_array(
-	const struct model_state *s, const struct projection *problem, const char *name, struct array *out)
+static size_t solver_array(const struct model_state *s, const struct projection *problem,
+	const char *name, struct array *out)
 {
 	size_t count;
 

@@ -18,7 +18,7 @@ struct memory {
 		*product;  /* columns: A times the direction, and in between the preconditioned residual */
 	double *sums;  /* [2][groups or blocks, whichever is more] */
 	double *terms; /* [threads][4][stride] */
-	float *modes;    /* columns of modes */
+	float *modes;  /* columns of modes */
 	double *block;
 	double scale;       /* |b| */
 	double alpha, beta; /* of the pass at hand */
@@ -39,8 +39,8 @@ static size_t layout(struct memory *m, double *block)
 	struct {
 		double **part;
 		size_t count;
-	} const parts[] = {{&m->x, all}, {&m->residual, all}, {&m->direction, all},
-		{&m->product, all}, {&m->sums, sums}};
+	} const parts[] = {{&m->x, all}, {&m->residual, all}, {&m->direction, all}, {&m->product, all},
+		{&m->sums, sums}};
 	size_t at = 0;
 
 	for (size_t i = 0; i < sizeof parts / sizeof *parts; at += parts[i++].count)
@@ -94,8 +94,8 @@ static void pass(struct memory *m, const struct pressure_system *system, int cou
 
 #pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
 	for (int t = 0; t < threads; t++) {
-		struct part part = {m, system, (int)((long)count * t / threads),
-			(int)((long)count * (t + 1) / threads)};
+		struct part part = {
+			m, system, (int)((long)count * t / threads), (int)((long)count * (t + 1) / threads)};
 
 		work(&part);
 	}
@@ -290,7 +290,8 @@ static double increment(const struct memory *m, const struct pressure_system *sy
 
 	for (int f = 0; f < system->faces; f++)
 		for (int a = 0; a < system->layers; a++) {
-			double change = fabs(m->alpha * m->scale * m->direction[(size_t)f * m->columns.stride + (size_t)a]);
+			double change =
+				fabs(m->alpha * m->scale * m->direction[(size_t)f * m->columns.stride + (size_t)a]);
 
 			if (norm == NORM_LINF)
 				sum = change > sum || isnan(change) ? change : sum;
