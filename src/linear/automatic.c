@@ -79,7 +79,7 @@ static int try_gradients(
 	done = conjugate_gradients.solve(system, &trial, m->gradients);
 	if (done >= 0)
 		m->kept[HOLD] = SHORTEST_HOLD;
-	else if (trial.max_iterations < rule->max_iterations)
+	else if (m->direct)
 		m->kept[LEFT] = m->kept[HOLD];
 	return done;
 }
