@@ -7,6 +7,7 @@
  * (1 - omega) times the residual that it had before. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/kernel.h"
 #include "linear/pressure_solver.h"
@@ -69,6 +70,11 @@ static void destroy(void *memory)
 	free(memory);
 }
 
+/* The theory of over-relaxation gives this for waves much longer than the layers are high, with q = 0 at the
+ * surface and no flux at the bed: sin of pi/2N is the rate of the slowest. Measured on the collapse of
+ * Table 4, to a residual of 1e-8: among factors 0.6 to 1.4 of that sine, 1 takes the fewest iterations
+ * for 2, 5, 10, 20 and 40 layers (13, 35, 67, 126, 259 on average; 0.8 takes 12 to 22 %, 1.2 50 to
+ * 59 % more). */
 static double best_omega(int layers)
 {
 	return 2 / (1 + (double)sinl(acosl(-1) / (2 * layers)));
@@ -243,6 +249,10 @@ KERNEL static double backward(
 /* Between the rows of the system and the lines of the colours. */
 static void take_start(const struct memory *m, const struct pressure_system *system)
 {
+	size_t count = (size_t)m->faces * m->stride;
+
+	for (int c = 0; c < 2; c++)
+		memset(m->colours[c].x, 0, count * sizeof *m->colours[c].x); /* and where no line is */
 	for (int a = 0; a < system->layers; a++) {
 		const double *row = pressure_system_x(system, a);
 		double *x = m->colours[a % 2].x + a / 2;
