@@ -41,7 +41,7 @@ C_FILES := $(wildcard src/*/*.c tests/*/*.c)
 SELECTED = $(if $(TESTS),$(sort $(foreach word,$(TESTS),$(foreach test,$1,$(if $(findstring $(word),$(test)),$(test))))),$1)
 
 .DEFAULT_GOAL := all
-.PHONY: all lib programs deps quickstart check test asan ubsan valgrind coverage clang tidy format \
+.PHONY: all lib programs deps quickstart check test asan ubsan widths valgrind coverage clang tidy format \
 	format-check symbols bench soak tables install clean distclean help $(EXPERIMENTS)
 .SECONDARY:
 .DELETE_ON_ERROR:
@@ -142,6 +142,15 @@ ubsan:
 	@scripts/deps build check
 	+$(Q)UBSAN_OPTIONS=exitcode=99:print_stacktrace=1 \
 		$(call sanitized,-fsanitize=undefined -fno-sanitize-recover=all)
+
+## widths: runs have the same bits with vectors of every width that this machine has, and with threads
+WIDTHS = x86-64 x86-64-v3 $(if $(shell grep -m 1 -w avx512vl /proc/cpuinfo),x86-64-v4)
+widths:
+	@scripts/deps build
+	$(Q)$(MAKE) $(SUB) all
+	+$(Q)$(foreach width,$(WIDTHS),$(call variant,$(width),all,-DTALUS_PLAIN_KERNELS -march=$(width)) &&) true
+	$(Q)TALUS_ROOT=$(CURDIR) PATH=$(abspath $(BIN)):$$PATH tests/widths/widths.sh \
+		$(WIDTHS:%=$(abspath $(BUILD))/%/bin/talus)
 
 ## valgrind: the unit tests under valgrind
 valgrind:

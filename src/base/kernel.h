@@ -43,6 +43,30 @@ KERNEL_PART void v8_store(double *to, v8 value)
 	*(v8 *)to = value;
 }
 
+/* A row of values kept as vectors: value i - 1, and value i + 1, in the lanes of vector k. Zero beyond. */
+KERNEL_PART v8 v8_before(const v8 *row, int k)
+{
+	v8 before = k > 0 ? row[k - 1] : (v8){0};
+
+	return __builtin_shufflevector(before, row[k], 7, 8, 9, 10, 11, 12, 13, 14);
+}
+
+KERNEL_PART v8 v8_after(const v8 *row, int k, int count)
+{
+	v8 after = k + 1 < count ? row[k + 1] : (v8){0};
+
+	return __builtin_shufflevector(row[k], after, 1, 2, 3, 4, 5, 6, 7, 8);
+}
+
+/* The numbers of the values in vector k. */
+KERNEL_PART v8 v8_numbers(int k)
+{
+	return (v8){0, 1, 2, 3, 4, 5, 6, 7} + (double)(k * LANES);
+}
+
+/* 1 in the lanes where a comparison holds, else 0. */
+#define V8_WHERE(comparison) ((v8){0} - __builtin_convertvector(comparison, v8))
+
 /* The eight lanes in one order. */
 KERNEL_PART double v8_sum(v8 v)
 {

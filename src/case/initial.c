@@ -15,7 +15,8 @@ static double heap(const struct config *config, double x)
 {
 	double t = (x - config->initial.centre) / config->initial.width;
 
-	return config->erodible_bed_thickness + config->initial.height * (double)expl(-(long double)t * t);
+	return config->erodible_bed_thickness +
+		   config->initial.height * (double)expl(-(long double)t * t);
 }
 
 /* Thickness at x, m; the index is enum shape_kind. */

@@ -97,11 +97,11 @@ static int check_operator(
 		return 0;
 	if (config_symmetric_only(method)) {
 		(void)error_set(err, EX_DATAERR,
-			"pressure_solver.method: %s solves symmetric systems only, and pressure_solver.operator "
+			"pressure_solver.method: %s solves symmetric systems only, and "
+			"pressure_solver.operator "
 			"is pointwise",
 			field_find(&config_table, "pressure_solver.method")->choices[method]);
-		return field_blame(
-			reader, "pressure_solver.method", "pressure_solver.operator", -1, err);
+		return field_blame(reader, "pressure_solver.method", "pressure_solver.operator", -1, err);
 	}
 	if (config->domain.cells >= 4)
 		return 0;

@@ -4,11 +4,14 @@
 
 #include "dry/dry.h"
 
-enum { CHUNK_CELLS = 256 }; /* at most, with all layers in the second-level cache */
+enum { CHUNK_CELLS = 256 }; /* in a chunk at most */
 
 struct chunk {
 	int first, last; /* cells, of 1..cells */
 };
+
+/* Cells of a chunk, so that what one step reads and writes of it stays in the second-level cache. */
+int chunk_cells(int layers);
 
 /* `work` for every chunk, shared out among the threads of the run. It may write what belongs to the
  * cells of its chunk, and read whatever no other chunk writes: the numbers are then the same whichever

@@ -2,8 +2,17 @@
  * the three steps of a time step. Letters follow the papers.
  *
  * Layout: a field of cells is one row of `grid.stride` values per layer, bottom layer first, with a
- * ghost cell at either end; a field of faces is one row of `grid.faces` values per layer. Every loop
- * runs along x inside and over the layers outside, so that the compiler can vectorise it. */
+ * ghost cell at either end; a field of faces is one row of `grid.faces` values per layer. A step goes
+ * over the cells in chunks (chunk.h) that are short enough to stay in the second-level cache with all
+ * their layers: memory is read once per step and not once per loop. Within a chunk the layers are
+ * outside and x is inside, in plain loops over rows that do not overlap and that the compiler turns
+ * into vectors of whichever width the processor has (kernel.h). Such a loop writes one value per cell
+ * or face and never sums along x, so its bits do not depend on that width; sums over the layers are
+ * kept in rows of cells, one term per layer and always from the bottom up; what is summed along x, for
+ * the series, is summed cell by cell in order. What all layers of a face or cell share (wave speeds,
+ * reconstructions, the thickness that carries the friction) is in rows on the stack, in the
+ * first-level cache. A chunk writes its own cells only, and what it needs of its neighbours it works
+ * out again: threads take chunks and wait for each other only between the parts of a step. */
 #ifndef TALUS_DRY_H
 #define TALUS_DRY_H
 
@@ -68,7 +77,8 @@ struct model_state {
 	struct dry_parameters par;
 	struct grid grid;
 	int layers;
-	int threads;
+	int threads;     /* that share the chunks */
+	int chunk_cells; /* in a chunk at most, a multiple of LANES */
 
 	/* The exact state. */
 	double *h;    /* thickness, [stride], m */
@@ -87,12 +97,12 @@ struct model_state {
 	double *fastest; /* largest |u| of the layers, [stride], m/s */
 	double *squares; /* sum of u^2 + w^2 over the layers, [stride], m2/s2 */
 
-	double *next;       /* thickness after transport, [stride], m */
-	double end_flux[2]; /* of mass at the ends in the last step, m2/s */
+	double *next;        /* thickness after transport, [stride], m */
+	double end_flux[2];  /* of mass at the ends in the last step, m2/s */
 	const double *force; /* the pressure whose force is being added */
-	double *face[6];    /* scratch rows of faces, [faces] */
-	double *work;       /* scratch of friction, [layers][stride] */
-	bool *dry;          /* [faces], q is 0 there */
+	double *face[6];     /* scratch rows of faces, [faces] */
+	double *work;        /* scratch of friction, [layers][stride] */
+	bool *dry;           /* [faces], q is 0 there */
 
 	const struct pressure_operator *operator_;
 	const struct pressure_solver *solver;

@@ -9,8 +9,7 @@ struct force {
 	double dh[CHUNK_CELLS], db[CHUNK_CELLS]; /* 2 dx d_x h and 2 dx N d_x b */
 };
 
-KERNEL_PART void force_begin(
-	const struct model_state *s, struct chunk chunk, struct force *force)
+KERNEL_PART void force_begin(const struct model_state *s, struct chunk chunk, struct force *force)
 {
 	const double *restrict h = s->h + chunk.first, *restrict b = s->b + chunk.first;
 	int cells = chunk.last - chunk.first + 1;
@@ -52,8 +51,8 @@ KERNEL_PART void force_add_layer(struct model_state *s, const struct force *forc
 	int cells = chunk.last - chunk.first + 1;
 
 	if (a < s->layers - 1)
-		force_add(s, force, cells, a, false, dt, h, low, low + s->grid.faces, s->U + row,
-			s->W + row);
+		force_add(
+			s, force, cells, a, false, dt, h, low, low + s->grid.faces, s->U + row, s->W + row);
 	else
 		force_add(s, force, cells, a, true, dt, h, low, low, s->U + row, s->W + row);
 }

@@ -90,7 +90,8 @@ KERNEL_PART void slide_as_one(
 }
 
 /* The interface below layer 1, where the elimination begins. */
-KERNEL_PART void begin(const struct model_state *s, struct chunk chunk, struct columns *c, double dt)
+KERNEL_PART void begin(
+	const struct model_state *s, struct chunk chunk, struct columns *c, double dt)
 {
 	const struct dry_parameters par = s->par;
 	const double *restrict h = s->h + chunk.first, *restrict u = s->u + chunk.first;

@@ -133,6 +133,7 @@ static int create(const struct config *config, struct model_state **out, struct 
 	s->grid = grid_make(config);
 	s->layers = s->full.layers = config->layers;
 	s->threads = config->threads;
+	s->chunk_cells = chunk_cells(s->layers);
 	s->operator_ = operators[config->pressure_solver.operator_];
 	s->solver = pressure_solver_find(config->pressure_solver.method, s->operator_->symmetric);
 	s->rule = (struct stopping_rule){.criterion = config->pressure_solver.criterion,
@@ -160,28 +161,22 @@ static int create(const struct config *config, struct model_state **out, struct 
 	return 0;
 }
 
-/* Layer a of the chunk: velocities, and their sums over the layers so far. */
-KERNEL_PART void layer_velocities(int cells, const double *restrict inverse,
-	const double *restrict U, double *restrict u, double *restrict sum, double *restrict fastest,
-	double *restrict squares)
+/* Velocities of a layer, and what they add to the sums over the layers; w is 0 and stays so where the
+ * pressure is hydrostatic. */
+KERNEL_PART void layer_velocities(int cells, bool hydrostatic, const double *restrict inverse,
+	const double *restrict U, const double *restrict W, double *restrict u, double *restrict w,
+	double *restrict sum, double *restrict fastest, double *restrict squares)
 {
 	for (int k = 0; k < cells; k++) {
-		double speed;
+		double along = U[k] * inverse[k], normal = hydrostatic ? 0 : W[k] * inverse[k];
+		double speed = fabs(along);
 
-		u[k] = U[k] * inverse[k];
-		speed = fabs(u[k]);
-		sum[k] += u[k];
+		u[k] = along;
+		if (!hydrostatic)
+			w[k] = normal;
+		sum[k] += along;
 		fastest[k] = speed > fastest[k] ? speed : fastest[k];
-		squares[k] += u[k] * u[k];
-	}
-}
-
-KERNEL_PART void layer_normal_velocities(int cells, const double *restrict inverse,
-	const double *restrict W, double *restrict w, double *restrict squares)
-{
-	for (int k = 0; k < cells; k++) {
-		w[k] = W[k] * inverse[k];
-		squares[k] += w[k] * w[k];
+		squares[k] += along * along + normal * normal;
 	}
 }
 
@@ -202,9 +197,12 @@ KERNEL static void velocities(struct model_state *s, struct chunk chunk, double 
 	for (int k = 0; k < cells; k++)
 		inverse[k] = h[k] > DRY_NO_MOMENTUM ? 1 / h[k] : 0;
 	for (int a = 0; a < s->layers; a++, row += s->grid.stride) {
-		layer_velocities(cells, inverse, s->U + row, s->u + row, mean, fastest, squares);
 		if (s->par.non_hydrostatic)
-			layer_normal_velocities(cells, inverse, s->W + row, s->w + row, squares);
+			layer_velocities(cells, false, inverse, s->U + row, s->W + row, s->u + row, s->w + row,
+				mean, fastest, squares);
+		else
+			layer_velocities(cells, true, inverse, s->U + row, s->W + row, s->u + row, s->w + row,
+				mean, fastest, squares);
 	}
 	for (int k = 0; k < cells; k++)
 		mean[k] /= s->layers;
@@ -312,8 +310,8 @@ static struct axes axes(const struct model_state *s)
 }
 
 /* What a pressure solver keeps between steps, if it does. */
-static size_t solver_array(
-	const struct model_state *s, const struct projection *problem, const char *name, struct array *out)
+static size_t solver_array(const struct model_state *s, const struct projection *problem,
+	const char *name, struct array *out)
 {
 	size_t count;
 
@@ -341,7 +339,7 @@ static size_t arrays(struct model_state *s, struct array *list)
 
 const struct model dry_model = {
 	.name = "dry",
-	.numerics_version = 2,
+	.numerics_version = 1,
 	.series = dry_series,
 	.series_count = DRY_SERIES_COUNT,
 	.profiles = dry_profiles,

@@ -125,8 +125,8 @@ static double energy(const struct model_state *s)
 	for (int i = 1; i <= s->grid.cells; i++) {
 		double plane = (end - grid_centre(&s->grid, i)) * s->par.tan_slope;
 
-		sum += s->h[i] * (0.5 * s->squares[i] / s->layers +
-							 s->par.gc * (plane + s->b[i] + 0.5 * s->h[i]));
+		sum += s->h[i] *
+			   (0.5 * s->squares[i] / s->layers + s->par.gc * (plane + s->b[i] + 0.5 * s->h[i]));
 	}
 	return s->par.rho * s->grid.dx * sum;
 }

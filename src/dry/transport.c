@@ -105,8 +105,9 @@ KERNEL_PART void reconstruct(const struct model_state *s, bool static_balance, d
 		double left = positive(h_i[f] - positive(held)), right = positive(h_j[f] - positive(-held));
 
 		/* the plane stands outside the reconstruction, or it would cut gravity where h < tan dx */
-		r->source[f] = par.gc * hbar *
-					   (positive(h_j[f] - positive(-db)) - positive(h_i[f] - positive(db)) + (dz - db));
+		r->source[f] =
+			par.gc * hbar *
+			(positive(h_j[f] - positive(-db)) - positive(h_i[f] - positive(db)) + (dz - db));
 		r->rest_source[f] = par.gc * hbar * (right - left);
 		r->left[f] = left;
 		r->right[f] = right;

@@ -10,7 +10,10 @@
 /* The direct method keeps a dense matrix per column: not beyond this much memory. */
 #define DIRECT_BYTES (256.0 * 1024 * 1024)
 
-enum { SHORTEST_HOLD = 4, LONGEST_HOLD = 64 }; /* steps of the direct method before the next trial */
+enum {
+	SHORTEST_HOLD = 4,
+	LONGEST_HOLD = 64
+}; /* steps of the direct method before the next trial */
 
 enum { HOLD, LEFT, KEPT }; /* what is kept: the length of a hold, and how much of it is left */
 

@@ -18,7 +18,8 @@ struct memory {
 	double *lower; /* [faces][row]: C_f from layer a to a - 1 of the column before */
 	double *same;  /* [faces][row]: to a */
 	double *upper; /* [faces][row]: to a + 1 */
-	double *diagonal, *above; /* [row], of D of the column at hand: itself, and with the layer above */
+	double *diagonal,
+		*above;            /* [row], of D of the column at hand: itself, and with the layer above */
 	double *start, *right; /* columns: x before, and its residual, which elimination turns over */
 	double *given;         /* columns: X times the eliminated residual, then the correction of x */
 	double *sums;          /* [groups] */
@@ -33,8 +34,8 @@ static size_t layout(struct memory *m, double *block)
 		double **part;
 		size_t count;
 	} const parts[] = {{&m->x, faces * layers * m->row}, {&m->lower, faces * m->row},
-		{&m->same, faces * m->row}, {&m->upper, faces * m->row},
-		{&m->diagonal, m->row}, {&m->above, m->row}, {&m->start, all}, {&m->right, all}, {&m->given, all},
+		{&m->same, faces * m->row}, {&m->upper, faces * m->row}, {&m->diagonal, m->row},
+		{&m->above, m->row}, {&m->start, all}, {&m->right, all}, {&m->given, all},
 		{&m->sums, (size_t)m->columns.groups}};
 	size_t at = 0;
 
@@ -73,29 +74,6 @@ static int create(
 	return 0;
 }
 
-/* Layer numbers of the lanes of a vector. */
-KERNEL_PART v8 lane_number(int k)
-{
-	return (v8){0, 1, 2, 3, 4, 5, 6, 7} + (double)(k * LANES);
-}
-
-#define one_where(condition) ((v8){0} - __builtin_convertvector(condition, v8))
-
-/* Lanes a - 1 and a + 1 of a row of vectors. */
-KERNEL_PART v8 lane_before(const v8 *row, int k)
-{
-	v8 before = k > 0 ? row[k - 1] : (v8){0};
-
-	return __builtin_shufflevector(before, row[k], 7, 8, 9, 10, 11, 12, 13, 14);
-}
-
-KERNEL_PART v8 lane_after(const v8 *row, int k, int blocks)
-{
-	v8 after = k + 1 < blocks ? row[k + 1] : (v8){0};
-
-	return __builtin_shufflevector(row[k], after, 1, 2, 3, 4, 5, 6, 7, 8);
-}
-
 /* What layer a of a cell has of each product of two of its corners. With P, S, C the factors of J and D in
  * T/sqrt(h) it is P^2 + 2 P S + S^2 + C^2 (of its right lower and left upper corner with itself, and minus
  * that of the two), P^2 - 2 P S + S^2 + C^2 (of the others likewise), and P^2 - S^2 - C^2 of a lower with
@@ -110,7 +88,7 @@ KERNEL_PART void fill_corners(
 	double pp = cells->stretch[i], lean = cells->lean[i], tilt = cells->tilt[i];
 
 	for (int k = 0; k < blocks; k++) {
-		v8 a = lane_number(k), s = lean * a + tilt, inside = one_where(a < (double)layers);
+		v8 a = v8_numbers(k), s = lean * a + tilt, inside = V8_WHERE(a < (double)layers);
 		v8 twice = 2 * cells->cross * s;
 		v8 square = (s * s + cells->quarter_nn) * cells->inverse[i];
 
@@ -129,16 +107,16 @@ KERNEL_PART void fill_column(struct memory *m, const bool *dry, int f, const str
 	int n = m->columns.layers;
 
 	for (int k = 0; k < blocks; k++, at += LANES) {
-		v8 a = lane_number(k), inside = coupled * one_where(a < (double)n);
-		v8 below_top = coupled * one_where(a < (double)(n - 1)); /* q = 0 at the surface */
-		v8 diagonal = left->plus[k] + lane_before(left->minus, k) + right->minus[k] +
-					  lane_before(right->plus, k);
+		v8 a = v8_numbers(k), inside = coupled * V8_WHERE(a < (double)n);
+		v8 below_top = coupled * V8_WHERE(a < (double)(n - 1)); /* q = 0 at the surface */
+		v8 diagonal =
+			left->plus[k] + v8_before(left->minus, k) + right->minus[k] + v8_before(right->plus, k);
 
 		v8_store(m->diagonal + k * LANES, wet * diagonal + (1 - wet));
 		v8_store(m->above + k * LANES, wet * (left->apart[k] + right->apart[k]));
-		v8_store(m->same + at, -inside * (left->apart[k] + lane_before(left->apart, k)));
+		v8_store(m->same + at, -inside * (left->apart[k] + v8_before(left->apart, k)));
 		v8_store(m->upper + at, -below_top * left->plus[k]);
-		v8_store(m->lower + at, -inside * lane_before(left->minus, k));
+		v8_store(m->lower + at, -inside * v8_before(left->minus, k));
 	}
 }
 
@@ -174,16 +152,16 @@ KERNEL_PART void take_out(struct memory *m, int f, const double *y, double *x, i
 						 upper * v8_load(above + k * LANES);
 		for (int k = 0; k < blocks; k++)
 			v8_store(to + k * LANES,
-				(v8){0} - (lane_before(product, k) * v8_load(m->lower + at + k * LANES) +
+				(v8){0} - (v8_before(product, k) * v8_load(m->lower + at + k * LANES) +
 							  product[k] * v8_load(m->same + at + k * LANES) +
-							  lane_after(product, k, blocks) * v8_load(m->upper + at + k * LANES)));
+							  v8_after(product, k, blocks) * v8_load(m->upper + at + k * LANES)));
 	}
 }
 
 /* What one elimination needs of its one or two pivots. */
 struct pivots {
 	v8 first[COLUMNS_BLOCKS_MAX], second[COLUMNS_BLOCKS_MAX]; /* their rows of the inverse */
-	v8 kept[COLUMNS_BLOCKS_MAX]; /* 0 in their columns, else 1 */
+	v8 kept[COLUMNS_BLOCKS_MAX];                              /* 0 in their columns, else 1 */
 };
 
 /* Rows p and p + 1 of the matrix into those of the inverse. */
@@ -194,7 +172,7 @@ KERNEL_PART void take_pivots(struct pivots *pivots, double *x, int p, int blocks
 	double aa = c * scale, ab = -b * scale, bb = a * scale;
 
 	for (int k = 0; k < blocks; k++) {
-		v8 is_first = one_where(lane_number(k) == p), is_second = one_where(lane_number(k) == p + 1);
+		v8 is_first = V8_WHERE(v8_numbers(k) == p), is_second = V8_WHERE(v8_numbers(k) == p + 1);
 		v8 kept = 1 - (is_first + is_second);
 		v8 r = v8_load(one + k * LANES) * kept + is_first;
 		v8 q = v8_load(two + k * LANES) * kept + is_second;
@@ -211,7 +189,7 @@ KERNEL_PART void take_pivot(struct pivots *pivots, double *x, int p, int blocks)
 	double *one = x + (size_t)p * (size_t)blocks * LANES, scale = 1 / one[p];
 
 	for (int k = 0; k < blocks; k++) {
-		v8 is_first = one_where(lane_number(k) == p);
+		v8 is_first = V8_WHERE(v8_numbers(k) == p);
 
 		pivots->kept[k] = 1 - is_first;
 		pivots->first[k] = scale * (v8_load(one + k * LANES) * pivots->kept[k] + is_first);
@@ -246,8 +224,8 @@ KERNEL_PART void invert(double *x, int n, int blocks)
 		double *to = x + (size_t)a * row, f = to[n - 1];
 
 		for (int k = 0; k < blocks; k++)
-			v8_store(to + k * LANES,
-				v8_load(to + k * LANES) * pivots.kept[k] - f * pivots.first[k]);
+			v8_store(
+				to + k * LANES, v8_load(to + k * LANES) * pivots.kept[k] - f * pivots.first[k]);
 	}
 	for (int k = 0; k < blocks; k++)
 		v8_store(x + (size_t)(n - 1) * row + k * LANES, pivots.first[k]);
@@ -279,68 +257,71 @@ KERNEL_PART void factor_blocks(struct memory *m, const struct pressure_system *s
 	}
 }
 
-/* y = X v. */
-KERNEL_PART void multiply(
-	const double *x, const double *v, double *y, int n, int blocks)
+/* X v, with v of which the vectors are in memory. */
+KERNEL_PART void multiply(const double *x, const double *v, v8 *out, int n, int blocks)
 {
 	size_t row = (size_t)blocks * LANES;
-	v8 sum[COLUMNS_BLOCKS_MAX];
 
 	for (int k = 0; k < blocks; k++)
-		sum[k] = (v8){0};
+		out[k] = (v8){0};
 	for (int a = 0; a < n; a++)
 		for (int k = 0; k < blocks; k++)
-			sum[k] += v[a] * v8_load(x + (size_t)a * row + k * LANES);
+			out[k] += v[a] * v8_load(x + (size_t)a * row + k * LANES);
+}
+
+/* Right side less C times the column before, and X times that. */
+KERNEL_PART void eliminate(struct memory *m, int f, int blocks)
+{
+	size_t at = (size_t)f * m->row, square = (size_t)m->columns.layers * m->row;
+	double *right = m->right + (size_t)f * m->columns.stride;
+	double *given = m->given + (size_t)f * m->columns.stride;
+	v8 before[COLUMNS_BLOCKS_MAX], product[COLUMNS_BLOCKS_MAX];
+
 	for (int k = 0; k < blocks; k++)
-		v8_store(y + k * LANES, sum[k]);
+		before[k] = f > 0 ? v8_load(given - m->columns.stride + k * LANES) : (v8){0};
+	for (int k = 0; k < blocks; k++)
+		v8_store(right + k * LANES,
+			v8_load(right + k * LANES) -
+				(v8_before(before, k) * v8_load(m->lower + at + k * LANES) +
+					before[k] * v8_load(m->same + at + k * LANES) +
+					v8_after(before, k, blocks) * v8_load(m->upper + at + k * LANES)));
+	multiply(m->x + (size_t)f * square, right, product, m->columns.layers, blocks);
+	for (int k = 0; k < blocks; k++)
+		v8_store(given + k * LANES, product[k]);
+}
+
+/* From the solution of column f that of the one before, which loses X C^T times it. */
+KERNEL_PART void substitute(struct memory *m, int f, int blocks)
+{
+	size_t at = (size_t)f * m->row, square = (size_t)m->columns.layers * m->row;
+	double *here = m->given + (size_t)f * m->columns.stride, *before = here - m->columns.stride;
+	v8 lower[COLUMNS_BLOCKS_MAX], upper[COLUMNS_BLOCKS_MAX], product[COLUMNS_BLOCKS_MAX];
+	double *back = m->right + (size_t)f * m->columns.stride; /* not needed any more */
+
+	for (int k = 0; k < blocks; k++) {
+		lower[k] = v8_load(m->lower + at + k * LANES) * v8_load(here + k * LANES);
+		upper[k] = v8_load(m->upper + at + k * LANES) * v8_load(here + k * LANES);
+	}
+	for (int k = 0; k < blocks; k++)
+		v8_store(
+			back + k * LANES, v8_after(lower, k, blocks) + v8_before(upper, k) +
+								  v8_load(m->same + at + k * LANES) * v8_load(here + k * LANES));
+	multiply(m->x + (size_t)(f - 1) * square, back, product, m->columns.layers, blocks);
+	for (int k = 0; k < blocks; k++)
+		v8_store(before + k * LANES, v8_load(before + k * LANES) - product[k]);
 }
 
 KERNEL_PART void solve_blocks(struct memory *m, int blocks)
 {
-	size_t row = (size_t)blocks * LANES, square = (size_t)m->columns.layers * row;
-	size_t stride = m->columns.stride;
-	int n = m->columns.layers, last = m->columns.faces - 1;
-	double product[(COLUMNS_BLOCKS_MAX + 2) * LANES] = {0}, *t = product + LANES;
+	int last = m->columns.faces - 1;
 
-	for (int f = 0; f <= last; f++) {
-		double *right = m->right + (size_t)f * stride, *given = m->given + (size_t)f * stride;
-		size_t at = (size_t)f * row;
-
-		if (f > 0) {
-			const double *before = given - stride;
-
-			for (int k = 0; k < blocks; k++)
-				v8_store(right + k * LANES,
-					v8_load(right + k * LANES) -
-						(v8_load(m->lower + at + k * LANES) * v8_load(before + k * LANES - 1) +
-							v8_load(m->same + at + k * LANES) * v8_load(before + k * LANES) +
-							v8_load(m->upper + at + k * LANES) * v8_load(before + k * LANES + 1)));
-		}
-		multiply(m->x + (size_t)f * square, right, given, n, blocks);
-	}
-	for (int f = last; f > 0; f--) {
-		double *here = m->given + (size_t)f * stride, *before = here - stride;
-		size_t at = (size_t)f * row;
-		double back[COLUMNS_BLOCKS_MAX * LANES];
-
-		/* C^T x: what column f gives to the one before it */
-		for (int k = 0; k < blocks; k++)
-			v8_store(t + k * LANES, v8_load(m->upper + at + k * LANES) * v8_load(here + k * LANES));
-		for (int k = 0; k < blocks; k++)
-			v8_store(back + k * LANES,
-				v8_load(t + k * LANES - 1) +
-					v8_load(m->same + at + k * LANES) * v8_load(here + k * LANES));
-		for (int k = 0; k < blocks; k++)
-			v8_store(t + k * LANES, v8_load(m->lower + at + k * LANES) * v8_load(here + k * LANES));
-		for (int k = 0; k < blocks; k++)
-			v8_store(back + k * LANES, v8_load(back + k * LANES) + v8_load(t + k * LANES + 1));
-		multiply(m->x + (size_t)(f - 1) * square, back, m->right, n, blocks);
-		for (int k = 0; k < blocks; k++)
-			v8_store(before + k * LANES,
-				v8_load(before + k * LANES) - v8_load(m->right + k * LANES));
-	}
+	for (int f = 0; f <= last; f++)
+		eliminate(m, f, blocks);
+	for (int f = last; f > 0; f--)
+		substitute(m, f, blocks);
 }
 
+/* The usual numbers of blocks are known when compiled, so that a row stays in registers. */
 #define BY_BLOCKS(call, count)                                                                     \
 	switch (count) {                                                                               \
 	case 1:                                                                                        \
@@ -359,11 +340,9 @@ KERNEL_PART void solve_blocks(struct memory *m, int blocks)
 		call(count);                                                                               \
 	}
 
-KERNEL static void factor(struct memory *m, const struct pressure_system *system)
-{
+KERNEL static void factor(struct memory *m, const struct pressure_system *system){
 #define FACTOR(count) factor_blocks(m, system, count)
-	BY_BLOCKS(FACTOR, m->blocks)
-}
+	BY_BLOCKS(FACTOR, m->blocks)}
 
 KERNEL static void sweep(struct memory *m)
 {

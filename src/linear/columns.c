@@ -60,12 +60,11 @@ struct terms {
 KERNEL_PART void cell_terms(const struct pressure_cells *cells, int i, const double *l,
 	const double *r, struct terms *out, int blocks)
 {
-	static const v8 count = {0, 1, 2, 3, 4, 5, 6, 7};
 	double stretch = cells->stretch[i], lean = cells->lean[i], inverse = cells->inverse[i];
 	double tilt = cells->tilt[i];
 
 	for (int k = 0; k < blocks; k++, l += LANES, r += LANES) {
-		v8 s = lean * (count + (double)(k * LANES)) + tilt, cs = cells->cross * s;
+		v8 s = lean * v8_numbers(k) + tilt, cs = cells->cross * s;
 		v8 l0 = v8_load(l), l1 = v8_load(l + 1), r0 = v8_load(r), r1 = v8_load(r + 1);
 		v8 jump = (l0 + l1) - (r0 + r1), difference = (l1 + r1) - (l0 + r0);
 		v8 g = stretch * jump + cs * difference;
@@ -76,14 +75,6 @@ KERNEL_PART void cell_terms(const struct pressure_cells *cells, int i, const dou
 	}
 }
 
-/* Value a - 1 of a row of terms in lane a of block k. */
-KERNEL_PART v8 shifted(const v8 *terms, int k)
-{
-	v8 before = k > 0 ? terms[k - 1] : (v8){0};
-
-	return __builtin_shufflevector(before, terms[k], 7, 8, 9, 10, 11, 12, 13, 14);
-}
-
 /* What the cells to the left and to the right give to a column; returns its product with x, by lanes. */
 KERNEL_PART v8 gather(const struct terms *left, const struct terms *right, const double *x,
 	double *out, int blocks, v8 surface)
@@ -91,8 +82,8 @@ KERNEL_PART v8 gather(const struct terms *left, const struct terms *right, const
 	v8 sum = {0};
 
 	for (int k = 0; k < blocks; k++) {
-		v8 from_right = right->low[k] + shifted(right->high, k);
-		v8 value = from_right - (left->high[k] + shifted(left->low, k));
+		v8 from_right = right->low[k] + v8_before(right->high, k);
+		v8 value = from_right - (left->high[k] + v8_before(left->low, k));
 
 		if (k + 1 == blocks)
 			value *= surface; /* nothing above it */

@@ -1,11 +1,13 @@
 /* Conjugate gradients on the symmetric operator, preconditioned by the operator without its xi terms,
- * which fast diagonalisation solves exactly. An iteration is four passes over the columns: new residual
- * and its modes, tridiagonal systems of the modes, new direction, product with the matrix. */
+ * which fast diagonalisation solves exactly. An iteration is three passes over the columns: new residual
+ * and its modes; tridiagonal systems of the modes; new direction and its product with the matrix. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "linear/fast_diagonal.h"
 #include "linear/pressure_solver.h"
+
+enum { BATCH = 4 }; /* groups whose columns are in hand at once */
 
 struct memory {
 	struct fast_diagonal fast;
@@ -16,7 +18,7 @@ struct memory {
 		*product;  /* columns: A times the direction, and in between the preconditioned residual */
 	double *sums;  /* [2][groups or blocks, whichever is more] */
 	double *terms; /* [threads][4][stride] */
-	float *modes;    /* columns of modes */
+	float *modes;  /* columns of modes */
 	double *block;
 	double scale;       /* |b| */
 	double alpha, beta; /* of the pass at hand */
@@ -37,8 +39,8 @@ static size_t layout(struct memory *m, double *block)
 	struct {
 		double **part;
 		size_t count;
-	} const parts[] = {{&m->x, all}, {&m->residual, all}, {&m->direction, all},
-		{&m->product, all}, {&m->sums, sums}};
+	} const parts[] = {{&m->x, all}, {&m->residual, all}, {&m->direction, all}, {&m->product, all},
+		{&m->sums, sums}};
 	size_t at = 0;
 
 	for (size_t i = 0; i < sizeof parts / sizeof *parts; at += parts[i++].count)
@@ -92,8 +94,8 @@ static void pass(struct memory *m, const struct pressure_system *system, int cou
 
 #pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
 	for (int t = 0; t < threads; t++) {
-		struct part part = {m, system, (int)((long)count * t / threads),
-			(int)((long)count * (t + 1) / threads)};
+		struct part part = {
+			m, system, (int)((long)count * t / threads), (int)((long)count * (t + 1) / threads)};
 
 		work(&part);
 	}
@@ -171,23 +173,59 @@ static void solve_modes(struct part *part)
 	fast_diagonal_solve(&part->m->fast, part->m->modes, part->m->sums, part->first, part->last);
 }
 
-/* x += alpha p, with the alpha of the last step, and p = z + beta p. */
-KERNEL static void turn(struct part *part)
+static void multiply(struct part *part, int first, int last)
 {
-	struct memory *m = part->m;
+	columns_apply(&part->m->columns, part->system, part->m->direction, part->m->product,
+		part->m->sums, first, last);
+}
+
+/* x += alpha p, with the alpha of the last step, and p = z + beta p in groups [first, last). */
+KERNEL static void turn(struct memory *m, int first, int last)
+{
 	double alpha = m->alpha, beta = m->beta;
 
-	for (int g = part->first; g < part->last; g++) {
-		size_t at = group_at(m, g);
+	fast_diagonal_to_layers(&m->fast, m->modes, m->product, first, last);
+	for (size_t i = group_at(m, first); i < group_at(m, last); i += LANES) {
+		v8 p = v8_load(m->direction + i);
 
-		fast_diagonal_to_layers(&m->fast, m->modes, m->product, g, g + 1);
-		for (size_t i = at; i < at + LANES * m->columns.stride; i += LANES) {
-			v8 p = v8_load(m->direction + i);
+		v8_store(m->x + i, v8_load(m->x + i) + alpha * p);
+		v8_store(m->direction + i, v8_load(m->product + i) + beta * p);
+	}
+}
 
-			v8_store(m->x + i, v8_load(m->x + i) + alpha * p);
-			v8_store(m->direction + i, v8_load(m->product + i) + beta * p);
+static int least(int a, int b)
+{
+	return a < b ? a : b;
+}
+
+/* The new direction batch by batch, and its product with the matrix one batch behind, while both are in
+ * the first-level cache. The product of the first and the last batch waits for the neighbours of the
+ * part, where there are any. */
+static void turn_and_multiply(struct part *part)
+{
+	int groups = part->m->columns.groups, done = part->first > 0 ? part->first + BATCH : 0;
+
+	for (int g = part->first; g < part->last; g += BATCH) {
+		int end = least(g + BATCH, part->last), known = end == groups ? end : g;
+
+		turn(part->m, g, end);
+		if (known > done) {
+			multiply(part, done, known);
+			done = known;
 		}
 	}
+}
+
+/* What turn_and_multiply left out. */
+static void multiply_edges(struct part *part)
+{
+	int head = least(part->first + BATCH, part->last);
+	int tail = part->first + (part->last - part->first - 1) / BATCH * BATCH; /* the last batch */
+
+	if (part->first > 0)
+		multiply(part, part->first, head);
+	if (part->last < part->m->columns.groups && (part->first == 0 || tail > part->first))
+		multiply(part, tail, part->last);
 }
 
 /* The last step of x, and back to units of the system. */
@@ -200,12 +238,6 @@ KERNEL static void finish(struct part *part)
 		v8_store(m->x + i, scale * (v8_load(m->x + i) + alpha * v8_load(m->direction + i)));
 	columns_to_rows(&m->columns, m->x, pressure_system_x(part->system, 0), part->system->x_stride,
 		part->first, part->last);
-}
-
-static void multiply(struct part *part)
-{
-	columns_apply(&part->m->columns, part->system, part->m->direction, part->m->product,
-		part->m->sums, part->first, part->last);
 }
 
 static bool starts_at_zero(const struct pressure_system *system)
@@ -258,7 +290,8 @@ static double increment(const struct memory *m, const struct pressure_system *sy
 
 	for (int f = 0; f < system->faces; f++)
 		for (int a = 0; a < system->layers; a++) {
-			double change = fabs(m->alpha * m->scale * m->direction[(size_t)f * m->columns.stride + (size_t)a]);
+			double change =
+				fabs(m->alpha * m->scale * m->direction[(size_t)f * m->columns.stride + (size_t)a]);
 
 			if (norm == NORM_LINF)
 				sum = change > sum || isnan(change) ? change : sum;
@@ -290,8 +323,8 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 		energy = total(m->sums, blocks);
 		m->beta = last > 0 ? energy / last : 0;
 		last = energy;
-		pass(m, system, groups, turn);
-		pass(m, system, groups, multiply);
+		pass(m, system, groups, turn_and_multiply);
+		pass(m, system, groups, multiply_edges);
 		m->alpha = energy / total(m->sums, groups);
 		stop = rule->criterion == CRITERION_INCREMENT &&
 			   increment(m, system, rule->norm) < rule->tolerance;

@@ -184,7 +184,8 @@ KERNEL_PART void solve(
 			size_t here = at + (size_t)k * MODES;
 
 			/* the multiplier of the next face; behind the last one it is zero */
-			last[k] = modes_load(modes + here) - modes_load(fast->multiplier + here + stride) * last[k];
+			last[k] =
+				modes_load(modes + here) - modes_load(fast->multiplier + here + stride) * last[k];
 			modes_store(modes + here, last[k]);
 		}
 	}
@@ -256,7 +257,11 @@ KERNEL_PART void pair_modes(float *column, size_t half)
 }
 
 /* Layers 2 first .. 2 first + 7 of a column, of which the even and odd ones are at `first`. */
-#define INTERLEAVED(even, odd, first)                                                              	__builtin_convertvector(                                                                       		__builtin_shufflevector(even, odd, first, 16 + (first), (first) + 1, 17 + (first),         			(first) + 2, 18 + (first), (first) + 3, 19 + (first)),                                 		v8)
+#define INTERLEAVED(even, odd, first)                                                              \
+	__builtin_convertvector(                                                                       \
+		__builtin_shufflevector(even, odd, first, 16 + (first), (first) + 1, 17 + (first),         \
+			(first) + 2, 18 + (first), (first) + 3, 19 + (first)),                                 \
+		v8)
 
 KERNEL_PART void store_layers(double *to, v16f even, v16f odd, size_t room)
 {

@@ -27,7 +27,7 @@ struct fast_diagonal {
 	double *kept;       /* [2 half], 1; 0 in the padding */
 	float *multiplier;  /* columns of modes: L of the L D L^T of each tridiagonal system */
 	float *inverse;     /* columns of modes: 1/D */
-	double *bands[4];   /* [faces + 1]: diagonals of K and M, and their coupling to the face before */
+	double *bands[4]; /* [faces + 1]: diagonals of K and M, and their coupling to the face before */
 	double *memory;
 	float *single_memory;
 };

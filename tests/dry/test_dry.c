@@ -1,4 +1,5 @@
 /* The dry model as a whole: what it conserves, where it rests, and how it fails. */
+#include <dirent.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "dry/chunk.h"
 #include "dry/dry.h"
 
 static const char column[] = "slope: 22 deg\n"
@@ -421,6 +423,115 @@ static void two_runs_have_the_same_bits(void **state)
 	}
 }
 
+/* More cells than one chunk has, in every kind of case that the kernels tell apart. */
+static const struct {
+	const char *settings[6];
+	int count;
+} wide[] = {
+	{{"domain.cells=700", "time.end=0.02", "pressure=hydrostatic", "layers=20"}, 4},
+	{{"domain.cells=700", "time.end=0.02", "pressure=hydrostatic", "layers=1"}, 4},
+	{{"domain.cells=701", "time.end=0.02", "pressure=hydrostatic", "erodible_bed_thickness=0",
+		 "domain.right=wall"},
+		5},
+	{{"domain.cells=600", "time.end=0.02", "scheme.friction_reconstruction=printed"}, 3},
+	{{"domain.cells=555", "time.end=0.02", "erodible_bed_thickness=0", "domain.left=outflow",
+		 "slope=0 deg", "domain.right=wall"},
+		6},
+	{{"domain.cells=600", "time.end=0.02", "layers=1"}, 3},
+};
+
+/* The flow at time.end must be that of `s`, bit for bit, in another state of the same config. */
+static void compare(struct model_state *s, struct model_state *r)
+{
+	struct array a[MODEL_ARRAYS_MAX], b[MODEL_ARRAYS_MAX];
+	size_t count = dry_model.arrays(s, a);
+
+	assert_int_equal(dry_model.arrays(r, b), count);
+	for (size_t k = 0; k < count; k++)
+		assert_memory_equal(a[k].data, b[k].data, a[k].extent[0] * a[k].extent[1] * sizeof(double));
+	assert_true(observed(s, "energy") == observed(r, "energy"));
+	assert_true(dry_model.time_step(s) == dry_model.time_step(r));
+}
+
+static int threads_of_this_process(void)
+{
+	DIR *tasks = opendir("/proc/self/task");
+	int count = 0;
+
+	assert_non_null(tasks);
+	while (readdir(tasks))
+		count++;
+	(void)closedir(tasks);
+	return count - 2; /* . and .. */
+}
+
+static void a_run_of_one_thread_makes_none(void **state)
+{
+	struct config config = read_config(wide[0].settings, wide[0].count);
+	struct model_state *s = create(&config);
+	int before = threads_of_this_process();
+
+	(void)state;
+	advance(s, 0.002);
+	assert_int_equal(threads_of_this_process(), before);
+	s->threads = 3;
+	advance(s, 0.002);
+	assert_true(threads_of_this_process() > before);
+	dry_model.free(s);
+}
+
+static void threads_and_chunks_do_not_change_the_bits(void **state)
+{
+	static const int threads[] = {2, 3, 1, 1, 2}, chunk_cells[] = {0, 0, 8, 40, 16};
+
+	(void)state;
+	for (size_t i = 0; i < sizeof wide / sizeof *wide; i++) {
+		struct config config = read_config(wide[i].settings, wide[i].count);
+		struct model_state *s = create(&config);
+
+		advance(s, config.time.end);
+		for (size_t k = 0; k < sizeof threads / sizeof *threads; k++) {
+			struct model_state *r;
+
+			config.threads = threads[k];
+			r = create(&config);
+			assert_int_equal(r->threads, threads[k]);
+			if (chunk_cells[k])
+				r->chunk_cells = chunk_cells[k];
+			advance(r, config.time.end);
+			compare(s, r);
+			dry_model.free(r);
+		}
+		dry_model.free(s);
+	}
+}
+
+static int visits[3000];
+
+static void visit(struct model_state *s, struct chunk chunk, double dt)
+{
+	assert_true(dt == 0.5);
+	assert_in_range(chunk.last - chunk.first + 1, 1, s->chunk_cells);
+	for (int i = chunk.first; i <= chunk.last; i++)
+		visits[i]++;
+}
+
+static void chunks_hold_every_cell_once(void **state)
+{
+	(void)state;
+	for (int layers = 1; layers <= 512; layers = 2 * layers + 1)
+		for (int cells = 2; cells < 2900; cells += 1 + cells / 100) {
+			struct model_state s = {
+				.grid.cells = cells, .threads = 1, .chunk_cells = chunk_cells(layers)};
+
+			assert_in_range(s.chunk_cells, LANES, CHUNK_CELLS);
+			memset(visits, 0, sizeof visits);
+			chunk_each(&s, visit, 0.5);
+			for (int i = 0; i < 3000; i++)
+				assert_int_equal(visits[i], i >= 1 && i <= cells);
+		}
+}
+
 /* Copying the arrays that a checkpoint holds into a fresh state goes on with the same bits. */
 static void the_arrays_are_the_whole_state(void **state)
 {
@@ -472,7 +583,8 @@ static void numbers_that_are_no_flow_end_the_step_and_say_where(void **state)
 	struct error err = {0};
 
 	(void)state;
-	s->u[s->grid.stride + 31] = s->U[s->grid.stride + 31] = NAN;
+	s->U[s->grid.stride + 31] = NAN;
+	dry_model.restored(s);
 	assert_true(isnan(dry_model.time_step(s)));
 	assert_int_equal(dry_model.step(s, 1e-3, &err), -1);
 	assert_int_equal(err.code, EX_FAILED);
@@ -546,6 +658,9 @@ static void a_step_allocates_nothing(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(a_run_of_one_thread_makes_none), /* before any other makes some */
+		cmocka_unit_test(chunks_hold_every_cell_once),
+		cmocka_unit_test(threads_and_chunks_do_not_change_the_bits),
 		cmocka_unit_test(mass_and_outflow_are_constant_to_rounding),
 		cmocka_unit_test(mass_leaves_through_an_outflow_only),
 		cmocka_unit_test(the_energy_never_rises),
