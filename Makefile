@@ -204,12 +204,13 @@ symbols: $(OBJECTS)
 			bad = 1; sub(/\.o:.*/, ".c", part[n]); print "src/" folder "/" part[n] ": " $$3 } \
 		END { exit bad }'
 
-## bench: the measured limits, such as the time of one checkpoint
+## bench: time of a checkpoint, and the pressure solvers compared into results/paper/solvers.md
 bench:
 	@scripts/deps build check
 	$(Q)$(MAKE) $(SUB) programs
 	$(Q)mkdir -p $(BUILD)/bench && cd $(BUILD)/bench && \
-		for bench in $(abspath $(BENCHES)); do TALUS_ROOT=$(CURDIR) PATH=$(abspath $(BIN)):$$PATH $$bench || exit; done
+		export TALUS_ROOT=$(CURDIR) PATH=$(abspath $(BIN)):$(abspath $(BUILD)/tests/bench):$$PATH && \
+		for bench in $(abspath $(BENCHES)) $(abspath $(wildcard tests/bench/*.sh)); do $$bench || exit; done
 
 ## soak: 100 kills over a campaign, and the same bits at its end (SOAK=count)
 SOAK ?= 100

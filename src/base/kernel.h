@@ -43,6 +43,12 @@ KERNEL_PART void v8_store(double *to, v8 value)
 	*(v8 *)to = value;
 }
 
+/* Where vector k of a row begins. */
+KERNEL_PART size_t v8_at(int k)
+{
+	return (size_t)k * LANES;
+}
+
 /* A row of values kept as vectors: value i - 1, and value i + 1, in the lanes of vector k. Zero beyond. */
 KERNEL_PART v8 v8_before(const v8 *row, int k)
 {

@@ -29,9 +29,9 @@ struct memory {
  * multiplies with half a square of modes; the direct method inverts a square of layers. */
 static int affordable(int layers)
 {
-	double n = layers, columns = (layers / LANES + 1) * LANES / n;
-	double modes = ((layers + 1) / 2 + MODES - 1) / MODES * 2 * MODES / n;
-	double iteration = 0.8 * columns + 0.47 * modes + 0.04 * n;
+	int column = (layers / LANES + 1) * LANES;
+	int modes = 2 * (((layers + 1) / 2 + MODES - 1) / MODES) * MODES;
+	double n = layers, iteration = (0.8 * column + 0.47 * modes) / n + 0.04 * n;
 	double direct = 10 + 0.8 * n + 0.02 * n * n;
 
 	return (int)(direct / iteration);

@@ -112,8 +112,8 @@ KERNEL_PART void fill_column(struct memory *m, const bool *dry, int f, const str
 		v8 diagonal =
 			left->plus[k] + v8_before(left->minus, k) + right->minus[k] + v8_before(right->plus, k);
 
-		v8_store(m->diagonal + k * LANES, wet * diagonal + (1 - wet));
-		v8_store(m->above + k * LANES, wet * (left->apart[k] + right->apart[k]));
+		v8_store(m->diagonal + v8_at(k), wet * diagonal + (1 - wet));
+		v8_store(m->above + v8_at(k), wet * (left->apart[k] + right->apart[k]));
 		v8_store(m->same + at, -inside * (left->apart[k] + v8_before(left->apart, k)));
 		v8_store(m->upper + at, -below_top * left->plus[k]);
 		v8_store(m->lower + at, -inside * v8_before(left->minus, k));
@@ -148,13 +148,13 @@ KERNEL_PART void take_out(struct memory *m, int f, const double *y, double *x, i
 		v8 product[COLUMNS_BLOCKS_MAX];
 
 		for (int k = 0; k < blocks; k++)
-			product[k] = lower * v8_load(below + k * LANES) + same * v8_load(here + k * LANES) +
-						 upper * v8_load(above + k * LANES);
+			product[k] = lower * v8_load(below + v8_at(k)) + same * v8_load(here + v8_at(k)) +
+						 upper * v8_load(above + v8_at(k));
 		for (int k = 0; k < blocks; k++)
-			v8_store(to + k * LANES,
-				(v8){0} - (v8_before(product, k) * v8_load(m->lower + at + k * LANES) +
-							  product[k] * v8_load(m->same + at + k * LANES) +
-							  v8_after(product, k, blocks) * v8_load(m->upper + at + k * LANES)));
+			v8_store(to + v8_at(k),
+				(v8){0} - (v8_before(product, k) * v8_load(m->lower + at + v8_at(k)) +
+							  product[k] * v8_load(m->same + at + v8_at(k)) +
+							  v8_after(product, k, blocks) * v8_load(m->upper + at + v8_at(k))));
 	}
 }
 
@@ -174,8 +174,8 @@ KERNEL_PART void take_pivots(struct pivots *pivots, double *x, int p, int blocks
 	for (int k = 0; k < blocks; k++) {
 		v8 is_first = V8_WHERE(v8_numbers(k) == p), is_second = V8_WHERE(v8_numbers(k) == p + 1);
 		v8 kept = 1 - (is_first + is_second);
-		v8 r = v8_load(one + k * LANES) * kept + is_first;
-		v8 q = v8_load(two + k * LANES) * kept + is_second;
+		v8 r = v8_load(one + v8_at(k)) * kept + is_first;
+		v8 q = v8_load(two + v8_at(k)) * kept + is_second;
 
 		pivots->kept[k] = kept;
 		pivots->first[k] = aa * r + ab * q;
@@ -192,7 +192,7 @@ KERNEL_PART void take_pivot(struct pivots *pivots, double *x, int p, int blocks)
 		v8 is_first = V8_WHERE(v8_numbers(k) == p);
 
 		pivots->kept[k] = 1 - is_first;
-		pivots->first[k] = scale * (v8_load(one + k * LANES) * pivots->kept[k] + is_first);
+		pivots->first[k] = scale * (v8_load(one + v8_at(k)) * pivots->kept[k] + is_first);
 	}
 }
 
@@ -209,12 +209,12 @@ KERNEL_PART void invert(double *x, int n, int blocks)
 			double f = to[p], g = to[p + 1];
 
 			for (int k = 0; k < blocks; k++)
-				v8_store(to + k * LANES, v8_load(to + k * LANES) * pivots.kept[k] -
-											 f * pivots.first[k] - g * pivots.second[k]);
+				v8_store(to + v8_at(k), v8_load(to + v8_at(k)) * pivots.kept[k] -
+											f * pivots.first[k] - g * pivots.second[k]);
 		}
 		for (int k = 0; k < blocks; k++) {
-			v8_store(x + (size_t)p * row + k * LANES, pivots.first[k]);
-			v8_store(x + (size_t)(p + 1) * row + k * LANES, pivots.second[k]);
+			v8_store(x + (size_t)p * row + v8_at(k), pivots.first[k]);
+			v8_store(x + (size_t)(p + 1) * row + v8_at(k), pivots.second[k]);
 		}
 	}
 	if (n % 2 == 0)
@@ -224,11 +224,10 @@ KERNEL_PART void invert(double *x, int n, int blocks)
 		double *to = x + (size_t)a * row, f = to[n - 1];
 
 		for (int k = 0; k < blocks; k++)
-			v8_store(
-				to + k * LANES, v8_load(to + k * LANES) * pivots.kept[k] - f * pivots.first[k]);
+			v8_store(to + v8_at(k), v8_load(to + v8_at(k)) * pivots.kept[k] - f * pivots.first[k]);
 	}
 	for (int k = 0; k < blocks; k++)
-		v8_store(x + (size_t)(n - 1) * row + k * LANES, pivots.first[k]);
+		v8_store(x + (size_t)(n - 1) * row + v8_at(k), pivots.first[k]);
 }
 
 KERNEL_PART void factor_blocks(struct memory *m, const struct pressure_system *system, int blocks)
@@ -266,7 +265,7 @@ KERNEL_PART void multiply(const double *x, const double *v, v8 *out, int n, int 
 		out[k] = (v8){0};
 	for (int a = 0; a < n; a++)
 		for (int k = 0; k < blocks; k++)
-			out[k] += v[a] * v8_load(x + (size_t)a * row + k * LANES);
+			out[k] += v[a] * v8_load(x + (size_t)a * row + v8_at(k));
 }
 
 /* Right side less C times the column before, and X times that. */
@@ -278,16 +277,16 @@ KERNEL_PART void eliminate(struct memory *m, int f, int blocks)
 	v8 before[COLUMNS_BLOCKS_MAX], product[COLUMNS_BLOCKS_MAX];
 
 	for (int k = 0; k < blocks; k++)
-		before[k] = f > 0 ? v8_load(given - m->columns.stride + k * LANES) : (v8){0};
+		before[k] = f > 0 ? v8_load(given - m->columns.stride + v8_at(k)) : (v8){0};
 	for (int k = 0; k < blocks; k++)
-		v8_store(right + k * LANES,
-			v8_load(right + k * LANES) -
-				(v8_before(before, k) * v8_load(m->lower + at + k * LANES) +
-					before[k] * v8_load(m->same + at + k * LANES) +
-					v8_after(before, k, blocks) * v8_load(m->upper + at + k * LANES)));
+		v8_store(right + v8_at(k),
+			v8_load(right + v8_at(k)) -
+				(v8_before(before, k) * v8_load(m->lower + at + v8_at(k)) +
+					before[k] * v8_load(m->same + at + v8_at(k)) +
+					v8_after(before, k, blocks) * v8_load(m->upper + at + v8_at(k))));
 	multiply(m->x + (size_t)f * square, right, product, m->columns.layers, blocks);
 	for (int k = 0; k < blocks; k++)
-		v8_store(given + k * LANES, product[k]);
+		v8_store(given + v8_at(k), product[k]);
 }
 
 /* From the solution of column f that of the one before, which loses X C^T times it. */
@@ -299,16 +298,15 @@ KERNEL_PART void substitute(struct memory *m, int f, int blocks)
 	double *back = m->right + (size_t)f * m->columns.stride; /* not needed any more */
 
 	for (int k = 0; k < blocks; k++) {
-		lower[k] = v8_load(m->lower + at + k * LANES) * v8_load(here + k * LANES);
-		upper[k] = v8_load(m->upper + at + k * LANES) * v8_load(here + k * LANES);
+		lower[k] = v8_load(m->lower + at + v8_at(k)) * v8_load(here + v8_at(k));
+		upper[k] = v8_load(m->upper + at + v8_at(k)) * v8_load(here + v8_at(k));
 	}
 	for (int k = 0; k < blocks; k++)
-		v8_store(
-			back + k * LANES, v8_after(lower, k, blocks) + v8_before(upper, k) +
-								  v8_load(m->same + at + k * LANES) * v8_load(here + k * LANES));
+		v8_store(back + v8_at(k), v8_after(lower, k, blocks) + v8_before(upper, k) +
+									  v8_load(m->same + at + v8_at(k)) * v8_load(here + v8_at(k)));
 	multiply(m->x + (size_t)(f - 1) * square, back, product, m->columns.layers, blocks);
 	for (int k = 0; k < blocks; k++)
-		v8_store(before + k * LANES, v8_load(before + k * LANES) - product[k]);
+		v8_store(before + v8_at(k), v8_load(before + v8_at(k)) - product[k]);
 }
 
 KERNEL_PART void solve_blocks(struct memory *m, int blocks)

@@ -87,8 +87,8 @@ KERNEL_PART v8 gather(const struct terms *left, const struct terms *right, const
 
 		if (k + 1 == blocks)
 			value *= surface; /* nothing above it */
-		sum += value * v8_load(x + k * LANES);
-		v8_store(out + k * LANES, value);
+		sum += value * v8_load(x + v8_at(k));
+		v8_store(out + v8_at(k), value);
 	}
 	return sum;
 }
