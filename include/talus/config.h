@@ -119,12 +119,12 @@ void config_print(const struct config *config, struct text *out);
 /* The annotated reference config: every key with default, unit, range or choices and meaning. */
 void config_print_reference(struct text *out);
 
-/* 16 hexadecimal digits of what can change numbers: every key except `checkpoint` and
- * `threads`. */
+/* 16 hexadecimal digits of what can change numbers: every key except `checkpoint`, `threads`. */
 enum { CONFIG_HASH_SIZE = 17 };
 int config_hash(const struct config *config, char hash[CONFIG_HASH_SIZE], struct error *err);
 
-/* Name, per line, every key (except `checkpoint` and `threads`) whose value differs: "layers: 10 -> 20". */
+/* Name, per line, every key (except `checkpoint` and `threads`) whose value differs:
+ * "layers: 10 -> 20". */
 void config_differences(const struct config *a, const struct config *b, struct text *out);
 
 /* The value of a dotted key as config_print writes it, without the key. EX_DATAERR with the nearest

@@ -26,7 +26,7 @@ KERNEL_PART void friction_thickness(
 	const double *restrict bottom = s->u + first;
 	const double *restrict top = s->u + (size_t)(s->layers - 1) * s->grid.stride + first;
 	double limit = 2 * s->grid.dx * s->par.mu_s * (1 + 1e-9);
-	double rest = 100 * s->par.delta_velocity, plane[CHUNK_CELLS];
+	double rest = 100 * s->par.delta_velocity, plane[CHUNK_CELLS] = {0};
 
 	for (int k = 0; k < c->cells; k++)
 		plane[k] = -2 * s->par.tan_slope * s->grid.dx;

@@ -192,7 +192,8 @@ KERNEL_PART void advance_layers(
 	struct model_state *s, const struct window *r, struct chunk chunk, double dt)
 {
 	size_t stride = s->grid.stride, left = (size_t)chunk.first - 1; /* of the first face */
-	double jumps[2][ROW] = {0}, flux[ROW], half[ROW], ratio = dt / s->grid.dx;
+	double jumps[2][ROW] = {0}, flux[ROW] = {0}, half[ROW] = {0};
+	double ratio = dt / s->grid.dx;
 	int cells = chunk.last - chunk.first + 1, faces = cells + 1, at = (int)left - r->first;
 	int top = s->layers - 1;
 	const double *h = s->h + left;
@@ -242,7 +243,7 @@ KERNEL_PART void advance_thickness(
 KERNEL static void transport(struct model_state *s, struct chunk chunk, double dt)
 {
 	int last = chunk.last < s->grid.cells ? chunk.last + 2 : chunk.last + 1;
-	double plane[ROW], u_roe[ROW];
+	double plane[ROW] = {0}, u_roe[ROW];
 	struct window r;
 
 	r.first = chunk.first > 1 ? chunk.first - 2 : 0;
