@@ -114,7 +114,7 @@ static const struct field fields[] = {
 	GROUP(pressure_solver, 0, "the linear system of the non-hydrostatic pressure"),
 	CHOICE("pressure_solver.method", pressure_solver.method, 0, "auto", methods,
 		"auto: conjugate-gradients or block-direct, by what the last steps cost; "
-		"block-gauss-seidel: as P1"),
+		"block-gauss-seidel: as P1; lapack-band: bits depend on the machine"),
 	CHOICE("pressure_solver.operator", pressure_solver.operator_, 0, "symmetric", operators,
 		"discrete operator: symmetric, or pointwise as P1 Appendix A (for its tables)"),
 	CHOICE("pressure_solver.start", pressure_solver.start, 0, "zero", starts,

@@ -27,6 +27,9 @@ enum {
 	RECORD
 };
 
+/* A part of such a record. */
+#define PART(record, part) ((record) + (size_t)(part)*LANES)
+
 /* The lines of a colour in groups of eight; line k of colour c is layer 2 k + c. */
 struct colour {
 	int lines;
@@ -146,15 +149,15 @@ KERNEL static void take_matrix(
 		rows[i] = rows_of(m, c, g * LANES, bands[i]);
 	for (int k = 0; k < LANES; k++)
 		missing[k] = rows[0].of[k] == m->zeros ? 1 : 0;
-	for (int f = 0; f < m->faces; f++, record += RECORD * LANES, ratio += LANES) {
+	for (int f = 0; f < m->faces; f++, record += (size_t)RECORD * LANES, ratio += LANES) {
 		v8 lower = rows_at(&rows[LOWER], f);
 		v8 pivot = rows_at(&rows[DIAGONAL], f) + missing - lower * last, inverse = 1 / pivot;
 
 		last = rows_at(&rows[UPPER], f) * inverse;
 		for (int i = 0; i < COUPLINGS; i++)
-			v8_store(record + i * LANES, rows_at(&rows[i], f) * inverse);
-		v8_store(record + MULTIPLIER * LANES, lower * inverse);
-		v8_store(record + PIVOT * LANES, pivot);
+			v8_store(PART(record, i), rows_at(&rows[i], f) * inverse);
+		v8_store(PART(record, MULTIPLIER), lower * inverse);
+		v8_store(PART(record, PIVOT), pivot);
 		v8_store(ratio, last);
 	}
 }
@@ -173,24 +176,24 @@ KERNEL static double forward(const struct memory *m, int c, int g)
 	v8 last = {0}, last_ratio = {0}, square = {0};
 
 	for (int f = 0; f < m->faces; f++) {
-		v8 multiplier = v8_load(record + MULTIPLIER * LANES);
+		v8 multiplier = v8_load(PART(record, MULTIPLIER));
 		v8 next_ratio = v8_load(ratio);
-		v8 right = v8_load(record + RIGHT * LANES) -
-				   (v8_load(record + BELOW_LOWER * LANES) * v8_load(below - stride) +
-					   v8_load(record + BELOW_DIAGONAL * LANES) * v8_load(below) +
-					   v8_load(record + BELOW_UPPER * LANES) * v8_load(below + stride)) -
-				   (v8_load(record + ABOVE_LOWER * LANES) * v8_load(above - stride) +
-					   v8_load(record + ABOVE_DIAGONAL * LANES) * v8_load(above) +
-					   v8_load(record + ABOVE_UPPER * LANES) * v8_load(above + stride));
+		v8 right = v8_load(PART(record, RIGHT)) -
+				   (v8_load(PART(record, BELOW_LOWER)) * v8_load(below - stride) +
+					   v8_load(PART(record, BELOW_DIAGONAL)) * v8_load(below) +
+					   v8_load(PART(record, BELOW_UPPER)) * v8_load(below + stride)) -
+				   (v8_load(PART(record, ABOVE_LOWER)) * v8_load(above - stride) +
+					   v8_load(PART(record, ABOVE_DIAGONAL)) * v8_load(above) +
+					   v8_load(PART(record, ABOVE_UPPER)) * v8_load(above + stride));
 		v8 own = multiplier * (v8_load(x - stride) + last_ratio * v8_load(x)) + v8_load(x) +
 				 next_ratio * v8_load(x + stride);
-		v8 residual = (right - own) * v8_load(record + PIVOT * LANES);
+		v8 residual = (right - own) * v8_load(PART(record, PIVOT));
 
 		square += residual * residual;
 		last_ratio = next_ratio;
 		last = right - multiplier * last;
 		v8_store(y, last);
-		record += RECORD * LANES;
+		record += (size_t)RECORD * LANES;
 		ratio += LANES;
 		y += LANES;
 		below += stride;

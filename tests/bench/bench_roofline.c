@@ -70,7 +70,7 @@ static double operations_per_second(void)
 		double start = clock_cpu(), rate;
 
 		sink = spin(count);
-		rate = 2.0 * 10 * LANES * (double)count / (clock_cpu() - start);
+		rate = 20.0 * LANES * (double)count / (clock_cpu() - start);
 		best = rate > best ? rate : best;
 	}
 	(void)sink;
@@ -80,7 +80,7 @@ static double operations_per_second(void)
 /* Of arrays that take `bytes` together; 0: no memory. */
 static double bytes_per_second(size_t bytes)
 {
-	size_t count = bytes / (3 * LANES * sizeof(double)) * LANES;
+	size_t count = bytes / sizeof(double) / 3 / LANES * LANES;
 	double *memory = calloc(3 * count, sizeof *memory), best = 0;
 	long rounds = (long)(4e8 / (double)bytes) + 1;
 

@@ -115,7 +115,7 @@ static const struct problem {
 	{"pointwise, dry ends", 3, 12, true, true, dry_ends, OPERATOR_POINTWISE, false},
 };
 
-enum { PROBLEMS = sizeof problems / sizeof *problems, CELLS_MAX = 40 };
+enum { PROBLEMS = sizeof problems / sizeof *problems, CELLS_MAX = 40, LAYERS_MAX = 20 };
 
 static const struct pressure_operator *operator_of(const struct problem *problem)
 {
@@ -249,39 +249,39 @@ static void know(const struct pressure_system *banded, struct pressure_system *s
 /* |A^-1| in the maximum norm, by Gauss-Jordan elimination with pivots. */
 static double norm_of_inverse(const struct pressure_system *system)
 {
-	int n = count_of(system), wide = 2 * n;
-	double *m = calloc((size_t)n * (size_t)wide, sizeof *m), largest = 0;
+	size_t n = (size_t)count_of(system), wide = 2 * n;
+	double *m = calloc(n * wide, sizeof *m), largest = 0;
 
 	assert_non_null(m);
-	for (int i = 0; i < n; i++) {
-		for (int j = 0; j < n; j++)
-			m[i * wide + j] = entry(system, i, j);
+	for (size_t i = 0; i < n; i++) {
+		for (size_t j = 0; j < n; j++)
+			m[i * wide + j] = entry(system, (int)i, (int)j);
 		m[i * wide + n + i] = 1;
 	}
-	for (int k = 0; k < n; k++) {
-		int pivot = k;
+	for (size_t k = 0; k < n; k++) {
+		size_t pivot = k;
 
-		for (int i = k + 1; i < n; i++)
+		for (size_t i = k + 1; i < n; i++)
 			if (fabs(m[i * wide + k]) > fabs(m[pivot * wide + k]))
 				pivot = i;
-		for (int j = 0; j < wide; j++) {
+		for (size_t j = 0; j < wide; j++) {
 			double swap = m[k * wide + j];
 
 			m[k * wide + j] = m[pivot * wide + j];
 			m[pivot * wide + j] = swap;
 		}
 		assert_true(m[k * wide + k] != 0);
-		for (int i = 0; i < n; i++) {
+		for (size_t i = 0; i < n; i++) {
 			double factor = m[i * wide + k] / m[k * wide + k];
 
-			for (int j = k; j < wide && i != k && factor != 0; j++)
+			for (size_t j = k; j < wide && i != k && factor != 0; j++)
 				m[i * wide + j] -= factor * m[k * wide + j];
 		}
 	}
-	for (int i = 0; i < n; i++) {
+	for (size_t i = 0; i < n; i++) {
 		double sum = 0;
 
-		for (int j = 0; j < n; j++)
+		for (size_t j = 0; j < n; j++)
 			sum += fabs(m[i * wide + n + j] / m[i * wide + i]);
 		largest = fmax(largest, sum);
 	}
@@ -603,6 +603,8 @@ static void a_solve_leaves_nothing_behind_for_the_next(void **state)
 /* The two forms of a symmetric matrix, and the product by columns. */
 static void the_cells_and_the_bands_are_one_matrix(void **state)
 {
+	static double rows[2][LAYERS_MAX * (CELLS_MAX + 1)];
+
 	(void)state;
 	for (int p = 0; p < PROBLEMS; p++) {
 		struct setup setup;
@@ -614,15 +616,13 @@ static void the_cells_and_the_bands_are_one_matrix(void **state)
 		int count = count_of(system);
 		struct columns columns = columns_make(system->layers, system->faces);
 		size_t all = columns_count(&columns);
-		double *x = calloc((size_t)count, sizeof *x), *rows[2], *in, *out, *sums;
+		double *x = calloc((size_t)count, sizeof *x), *in, *out, *sums;
 		double relative[2], dot = 0, largest = 0;
 
-		rows[0] = calloc((size_t)count, sizeof *x);
-		rows[1] = calloc((size_t)count, sizeof *x);
 		in = calloc(all, sizeof *in);
 		out = calloc(all, sizeof *out);
 		sums = calloc((size_t)columns.groups, sizeof *sums);
-		assert_true(x && rows[0] && rows[1] && in && out && sums);
+		assert_true(x && in && out && sums);
 		know(system, system, x);
 		for (int i = 0; i < count; i++)
 			x[i] *= 0.5;
@@ -652,8 +652,6 @@ static void the_cells_and_the_bands_are_one_matrix(void **state)
 		/* rounding of a sum of `count` terms up to the largest */
 		assert_true(fabs(dot) <= 1e-14 * count * largest);
 		free(x);
-		free(rows[0]);
-		free(rows[1]);
 		free(in);
 		free(out);
 		free(sums);
