@@ -7,8 +7,10 @@
 #include "linear/fast_diagonal.h"
 #include "linear/pressure_solver.h"
 
-/* The direct method keeps a dense matrix per column: not beyond this much memory. */
+/* The direct method keeps a dense matrix per column: not beyond this much memory, and not for more layers
+ * than conjugate gradients are always cheaper for. */
 #define DIRECT_BYTES (256.0 * 1024 * 1024)
+#define DIRECT_LAYERS 40
 
 enum {
 	SHORTEST_HOLD = 4,
@@ -31,8 +33,8 @@ static int affordable(int layers)
 {
 	int column = (layers / LANES + 1) * LANES;
 	int modes = 2 * (((layers + 1) / 2 + MODES - 1) / MODES) * MODES;
-	double n = layers, iteration = (0.8 * column + 0.47 * modes) / n + 0.04 * n;
-	double direct = 10 + 0.8 * n + 0.02 * n * n;
+	double n = layers, iteration = (0.53 * column + 0.55 * modes) / n + 0.03 * n;
+	double direct = 11.5 + 0.3 * n + 0.025 * n * n;
 
 	return (int)(direct / iteration);
 }
@@ -60,7 +62,7 @@ static int create(
 	m->method = METHOD_CONJUGATE_GRADIENTS;
 	m->kept[HOLD] = SHORTEST_HOLD;
 	if (conjugate_gradients.create(layers, faces, options, &m->gradients, err) != 0 ||
-		(8.0 * layers * (double)columns.stride * faces <= DIRECT_BYTES &&
+		(layers <= DIRECT_LAYERS && 8.0 * layers * (double)columns.stride * faces <= DIRECT_BYTES &&
 			block_direct.create(layers, faces, options, &m->direct, err) != 0)) {
 		destroy(m);
 		return -1;
