@@ -267,11 +267,11 @@ KERNEL_PART void store_layers(double *to, v16f even, v16f odd, size_t room)
 {
 	v8_store(to, INTERLEAVED(even, odd, 0));
 	if (room > LANES)
-		v8_store(to + LANES, INTERLEAVED(even, odd, 4));
-	if (room > 2 * LANES)
-		v8_store(to + 2 * LANES, INTERLEAVED(even, odd, 8));
-	if (room > 3 * LANES)
-		v8_store(to + 3 * LANES, INTERLEAVED(even, odd, 12));
+		v8_store(to + v8_at(1), INTERLEAVED(even, odd, 4));
+	if (room > v8_at(2))
+		v8_store(to + v8_at(2), INTERLEAVED(even, odd, 8));
+	if (room > v8_at(3))
+		v8_store(to + v8_at(3), INTERLEAVED(even, odd, 12));
 }
 
 /* The even layers are made of the sums and the odd ones of the differences. */
