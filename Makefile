@@ -4,6 +4,7 @@ ifeq ($(origin CC),default)
 CC := gcc
 endif
 PKGS := hdf5 yaml-0.1 libxxhash
+LOADED := lapacke # when it is asked for: linked, it would slow every start
 BUILD ?= build
 BIN ?= bin
 LIB ?= libtalus.a
@@ -19,9 +20,9 @@ SUB = --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(JOBS))
 # The two -fno- flags change no result: they let sqrt and selections compile to vector instructions.
 OPT ?= -O3 -ffp-contract=off -fno-math-errno -fno-trapping-math
 WARN := -Wall -Wextra -Wconversion -Wshadow -Wvla -Wstrict-prototypes -Wmissing-prototypes -Wpointer-arith
-CFLAGS_ALL = -std=c11 -D_GNU_SOURCE -g $(OPT) $(WARN) $(WERROR) -Iinclude -Isrc $(PKG_CFLAGS) $(CFLAGS)
+CFLAGS_ALL = -std=c11 -D_GNU_SOURCE -fopenmp -g $(OPT) $(WARN) $(WERROR) -Iinclude -Isrc $(PKG_CFLAGS) $(CFLAGS)
 # Asked once, when first needed: targets that install the libraries run before they are there.
-PKG_CFLAGS = $(eval PKG_CFLAGS := $(patsubst -I%,-isystem %,$(call pkg_config,--cflags,$(PKGS))))$(PKG_CFLAGS)
+PKG_CFLAGS = $(eval PKG_CFLAGS := $(patsubst -I%,-isystem %,$(call pkg_config,--cflags,$(PKGS) $(LOADED))))$(PKG_CFLAGS)
 PKG_LIBS = $(eval PKG_LIBS := -lhdf5_hl $(call pkg_config,--libs,$(PKGS)) -lm)$(PKG_LIBS)
 pkg_config = $(if $(shell pkg-config --exists $2 2>/dev/null && echo yes),$(shell pkg-config $1 $2),$(error \
 	missing libraries ($2): run `make deps`))
@@ -40,7 +41,7 @@ C_FILES := $(wildcard src/*/*.c tests/*/*.c)
 SELECTED = $(if $(TESTS),$(sort $(foreach word,$(TESTS),$(foreach test,$1,$(if $(findstring $(word),$(test)),$(test))))),$1)
 
 .DEFAULT_GOAL := all
-.PHONY: all lib programs deps quickstart check test asan ubsan valgrind coverage clang tidy format \
+.PHONY: all lib programs deps quickstart check test asan ubsan widths valgrind coverage clang tidy format \
 	format-check symbols bench soak tables install clean distclean help $(EXPERIMENTS)
 .SECONDARY:
 .DELETE_ON_ERROR:
@@ -83,16 +84,16 @@ $(LIB): $(OBJECTS)
 $(BIN)/talus: $(BUILD)/src/cli/main_talus.o $(LIB)
 	@mkdir -p $(@D)
 	@echo "LD $@"
-	$(Q)$(CC) $(OPT) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(PKG_LIBS)
+	$(Q)$(CC) -fopenmp $(OPT) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(PKG_LIBS)
 
 $(BIN)/talus-tables: $(BUILD)/src/cli/main_talus_tables.o $(LIB)
 	@mkdir -p $(@D)
 	@echo "LD $@"
-	$(Q)$(CC) $(OPT) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(PKG_LIBS)
+	$(Q)$(CC) -fopenmp $(OPT) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(PKG_LIBS)
 
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(LIB)
 	@echo "LD $@"
-	$(Q)$(CC) $(OPT) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(call pkg_config,--libs,cmocka) $(PKG_LIBS)
+	$(Q)$(CC) -fopenmp $(OPT) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(call pkg_config,--libs,cmocka) $(PKG_LIBS)
 
 # Packages first, then everything that asks about them in a make of its own.
 
@@ -141,6 +142,15 @@ ubsan:
 	@scripts/deps build check
 	+$(Q)UBSAN_OPTIONS=exitcode=99:print_stacktrace=1 \
 		$(call sanitized,-fsanitize=undefined -fno-sanitize-recover=all)
+
+## widths: runs have the same bits with vectors of every width that this machine has, and with threads
+WIDTHS = x86-64 x86-64-v3 $(if $(shell grep -m 1 -w avx512vl /proc/cpuinfo),x86-64-v4)
+widths:
+	@scripts/deps build
+	$(Q)$(MAKE) $(SUB) all
+	+$(Q)$(foreach width,$(WIDTHS),$(call variant,$(width),all,-DTALUS_PLAIN_KERNELS -march=$(width)) &&) true
+	$(Q)TALUS_ROOT=$(CURDIR) PATH=$(abspath $(BIN)):$$PATH tests/widths/widths.sh \
+		$(WIDTHS:%=$(abspath $(BUILD))/%/bin/talus)
 
 ## valgrind: the unit tests under valgrind
 valgrind:
@@ -194,12 +204,13 @@ symbols: $(OBJECTS)
 			bad = 1; sub(/\.o:.*/, ".c", part[n]); print "src/" folder "/" part[n] ": " $$3 } \
 		END { exit bad }'
 
-## bench: the measured limits, such as the time of one checkpoint
+## bench: time of a checkpoint, and the pressure solvers compared into results/paper/solvers.md
 bench:
 	@scripts/deps build check
 	$(Q)$(MAKE) $(SUB) programs
 	$(Q)mkdir -p $(BUILD)/bench && cd $(BUILD)/bench && \
-		for bench in $(abspath $(BENCHES)); do TALUS_ROOT=$(CURDIR) PATH=$(abspath $(BIN)):$$PATH $$bench || exit; done
+		export TALUS_ROOT=$(CURDIR) PATH=$(abspath $(BIN)):$(abspath $(BUILD)/tests/bench):$$PATH && \
+		for bench in $(abspath $(BENCHES)) $(abspath $(wildcard tests/bench/*.sh)); do $$bench || exit; done
 
 ## soak: 100 kills over a campaign, and the same bits at its end (SOAK=count)
 SOAK ?= 100

@@ -11,13 +11,22 @@
 enum model_kind { MODEL_DRY };
 enum pressure_kind { PRESSURE_HYDROSTATIC, PRESSURE_NON_HYDROSTATIC };
 enum boundary_kind { BOUNDARY_WALL, BOUNDARY_OUTFLOW };
-enum shape_kind { SHAPE_COLUMN };
+enum shape_kind { SHAPE_COLUMN, SHAPE_HEAP };
 enum law_kind { LAW_MU_I };
 enum wave_speed_kind { WAVE_SPEED_FASTEST, WAVE_SPEED_MEAN };
 enum reconstruction_kind { RECONSTRUCTION_STATIC, RECONSTRUCTION_PRINTED };
-enum method_kind { METHOD_BLOCK_GAUSS_SEIDEL };
+enum method_kind {
+	METHOD_AUTO,
+	METHOD_BLOCK_GAUSS_SEIDEL,
+	METHOD_BLOCK_GAUSS_SEIDEL_FACTORED,
+	METHOD_RED_BLACK_LINE_RELAXATION,
+	METHOD_CONJUGATE_GRADIENTS,
+	METHOD_BLOCK_DIRECT,
+	METHOD_LAPACK_BAND,
+};
 enum operator_kind { OPERATOR_SYMMETRIC, OPERATOR_POINTWISE };
 enum start_kind { START_ZERO, START_PREVIOUS };
+enum criterion_kind { CRITERION_RESIDUAL, CRITERION_INCREMENT };
 enum norm_kind { NORM_L1, NORM_L2, NORM_LINF };
 
 /* A short list of numbers, kept inside the config so that a config is a plain value. */
@@ -40,8 +49,10 @@ struct config {
 	} domain;
 	struct {
 		int shape;     /* enum shape_kind */
-		double height; /* of the column above the bed layer, m */
+		double height; /* of the column, or of the top of the heap, above the bed layer, m */
 		double front;  /* position of the gate, m */
+		double centre; /* of the heap, m */
+		double width;  /* of the heap: where its height has fallen to 1/e, m */
 	} initial;
 	struct {
 		double diameter;       /* d_s, m */
@@ -68,8 +79,11 @@ struct config {
 		int method;         /* enum method_kind */
 		int operator_;      /* enum operator_kind; key `operator` */
 		int start;          /* enum start_kind */
+		int criterion;      /* enum criterion_kind */
+		double residual;    /* true relative residual asked for, 1 */
 		int norm;           /* enum norm_kind */
 		double tolerance;   /* of the increment of a sweep, in p/rho units, m2/s2 */
+		double relaxation;  /* over-relaxation factor of a relaxation, 1; 0: by layers */
 		int max_iterations; /* sweeps after which the solver is said not to converge */
 	} pressure_solver;
 	struct {
@@ -82,6 +96,7 @@ struct config {
 		double every;    /* wall clock, s; 0: off */
 		int every_steps; /* 0: off */
 	} checkpoint;
+	int threads; /* that share one run */
 };
 
 /* Read a config from a YAML file. `settings` are `count` texts "key=value" with dotted keys
@@ -95,17 +110,21 @@ int config_read(struct config *config, const char *path, const char *const *sett
 int config_parse(struct config *config, const char *text, size_t length, const char *name,
 	const char *const *settings, int count, struct error *err);
 
+/* Does this method (enum method_kind) solve the symmetric operator alone? */
+bool config_symmetric_only(int method);
+
 /* The config as YAML in SI units with every key; config_parse reads it back to the same bits. */
 void config_print(const struct config *config, struct text *out);
 
 /* The annotated reference config: every key with default, unit, range or choices and meaning. */
 void config_print_reference(struct text *out);
 
-/* 16 hexadecimal digits of what can change numbers: every key except `checkpoint`. */
+/* 16 hexadecimal digits of what can change numbers: every key except `checkpoint`, `threads`. */
 enum { CONFIG_HASH_SIZE = 17 };
 int config_hash(const struct config *config, char hash[CONFIG_HASH_SIZE], struct error *err);
 
-/* Name, per line, every key (except `checkpoint`) whose value differs: "layers: 10 -> 20". */
+/* Name, per line, every key (except `checkpoint` and `threads`) whose value differs:
+ * "layers: 10 -> 20". */
 void config_differences(const struct config *a, const struct config *b, struct text *out);
 
 /* The value of a dotted key as config_print writes it, without the key. EX_DATAERR with the nearest

@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -169,6 +170,8 @@ static int pool_init(struct pool *pool, struct campaign *campaign, struct error 
 	(void)sigemptyset(&pool->signals);
 	for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
 		(void)sigaddset(&pool->signals, numbers[i]);
+	/* Threads of a run that have nothing to do sleep: their processor may be another run's. */
+	(void)setenv("OMP_WAIT_POLICY", "passive", false);
 	if (campaign->experiment->timing)
 		TRY(file_path(&pool->timing, campaign->experiment->folder, "timing.lock", err));
 	if (sigprocmask(SIG_BLOCK, &pool->signals, &pool->before) != 0)

@@ -1,7 +1,9 @@
 /* talus run: bring a run to its end, from wherever it stands. */
 #include <getopt.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/stop.h"
@@ -94,7 +96,19 @@ static void add_default_folder(struct text *folder, const char *file)
 	text_add_bytes(folder, stem, dot && dot > stem ? (size_t)(dot - stem) : strlen(stem));
 }
 
-static int execute(struct run_command *command)
+/* Threads of a run that have nothing to do are to sleep, not to spin on a processor that another run may
+ * have. OpenMP reads that from the environment before main begins: begin anew, with it set. Goes on
+ * spinning where FILE can be read only once. */
+static void sleep_when_idle(const struct config *config, const char *file, char **argv)
+{
+	struct stat info;
+
+	if (config->threads > 1 && !getenv("OMP_WAIT_POLICY") && stat(file, &info) == 0 &&
+		S_ISREG(info.st_mode) && setenv("OMP_WAIT_POLICY", "passive", false) == 0 && !stop_signal())
+		(void)execv("/proc/self/exe", argv);
+}
+
+static int execute(struct run_command *command, char **argv)
 {
 	struct text folder = {0};
 	struct config config;
@@ -110,8 +124,10 @@ static int execute(struct run_command *command)
 	if (folder.failed)
 		(void)error_memory(&err, folder.capacity);
 	else if (config_read(&config, command->file, command->settings.list, command->settings.count,
-				 &err) == 0)
+				 &err) == 0) {
+		sleep_when_idle(&config, command->file, argv);
 		(void)run_execute(&config, text_string(&folder), &command->run, &err);
+	}
 	if (err.code)
 		code = command_fail(&err);
 	text_clean(&folder);
@@ -125,7 +141,7 @@ static int run_main(int argc, char **argv)
 	int code = read_options(argc, argv, &command);
 
 	if (code == 0 && command.file) {
-		code = execute(&command);
+		code = execute(&command, argv - 1); /* with the name of the program */
 	} else if (code == 0) {
 		text_add(&out, help);
 		code = command_print(&out);

@@ -91,7 +91,19 @@ static int check_domain(
 static int check_operator(
 	const struct config *config, const struct field_reader *reader, struct error *err)
 {
-	if (config->pressure_solver.operator_ != OPERATOR_POINTWISE || config->domain.cells >= 4)
+	int method = config->pressure_solver.method;
+
+	if (config->pressure_solver.operator_ != OPERATOR_POINTWISE)
+		return 0;
+	if (config_symmetric_only(method)) {
+		(void)error_set(err, EX_DATAERR,
+			"pressure_solver.method: %s solves symmetric systems only, and "
+			"pressure_solver.operator "
+			"is pointwise",
+			field_find(&config_table, "pressure_solver.method")->choices[method]);
+		return field_blame(reader, "pressure_solver.method", "pressure_solver.operator", -1, err);
+	}
+	if (config->domain.cells >= 4)
 		return 0;
 	(void)error_set(err, EX_DATAERR,
 		"domain.cells: %d is too few for the pointwise operator, which needs 4",

@@ -31,17 +31,26 @@ static const char *const pressures[] = {
 	[PRESSURE_HYDROSTATIC] = "hydrostatic", [PRESSURE_NON_HYDROSTATIC] = "non-hydrostatic", NULL};
 static const char *const boundaries[] = {
 	[BOUNDARY_WALL] = "wall", [BOUNDARY_OUTFLOW] = "outflow", NULL};
-static const char *const shapes[] = {[SHAPE_COLUMN] = "column", NULL};
+static const char *const shapes[] = {
+	[SHAPE_COLUMN] = "column", [SHAPE_HEAP] = "heap", NULL};
 static const char *const laws[] = {[LAW_MU_I] = "mu_i", NULL};
 static const char *const wave_speeds[] = {
 	[WAVE_SPEED_FASTEST] = "fastest", [WAVE_SPEED_MEAN] = "mean", NULL};
 static const char *const reconstructions[] = {
 	[RECONSTRUCTION_STATIC] = "static", [RECONSTRUCTION_PRINTED] = "printed", NULL};
-static const char *const methods[] = {[METHOD_BLOCK_GAUSS_SEIDEL] = "block-gauss-seidel", NULL};
+static const char *const methods[] = {[METHOD_AUTO] = "auto",
+	[METHOD_BLOCK_GAUSS_SEIDEL] = "block-gauss-seidel",
+	[METHOD_BLOCK_GAUSS_SEIDEL_FACTORED] = "block-gauss-seidel-factored",
+	[METHOD_RED_BLACK_LINE_RELAXATION] = "red-black-line-relaxation",
+	[METHOD_CONJUGATE_GRADIENTS] = "conjugate-gradients",
+	[METHOD_BLOCK_DIRECT] = "block-direct",
+	[METHOD_LAPACK_BAND] = "lapack-band", NULL};
 static const char *const operators[] = {
 	[OPERATOR_SYMMETRIC] = "symmetric", [OPERATOR_POINTWISE] = "pointwise", NULL};
 static const char *const starts[] = {
 	[START_ZERO] = "zero", [START_PREVIOUS] = "previous", NULL};
+static const char *const criteria[] = {
+	[CRITERION_RESIDUAL] = "residual", [CRITERION_INCREMENT] = "increment", NULL};
 static const char *const norms[] = {
 	[NORM_L1] = "l1", [NORM_L2] = "l2", [NORM_LINF] = "linf", NULL};
 
@@ -68,9 +77,11 @@ static const struct field fields[] = {
 
 	GROUP(initial, 0, "the grains at rest at time 0, above the bed layer"),
 	CHOICE("initial.shape", initial.shape, 0, "column", shapes,
-		"column: one height from the left end to the front"),
-	REAL(initial.height, 0, "m", "0.14 m", "(0, inf)", "height of the column above the bed layer"),
+		"column: one height from the left end to the front; heap: height exp(-((x - centre)/width)^2)"),
+	REAL(initial.height, 0, "m", "0.14 m", "(0, inf)", "height of the column, or of the heap's top, above the bed layer"),
 	REAL(initial.front, 0, "m", "0 m", NULL, "position of the gate, between x_min and x_max"),
+	REAL(initial.centre, 0, "m", "0 m", NULL, "of the heap"),
+	REAL(initial.width, 0, "m", "0.5 m", "(0, inf)", "of the heap: where its height has fallen to 1/e"),
 
 	GROUP(grains, 0, "the material"),
 	REAL(grains.diameter, 0, "m", "0.7 mm", "(0, inf)", "grain diameter (d_s)"),
@@ -101,16 +112,23 @@ static const struct field fields[] = {
 		"where friction balances the slope in P1 (21): static: only at rest; printed: also in motion"),
 
 	GROUP(pressure_solver, 0, "the linear system of the non-hydrostatic pressure"),
-	CHOICE("pressure_solver.method", pressure_solver.method, 0, "block-gauss-seidel", methods,
-		"block-gauss-seidel: one tridiagonal solve per layer and sweep (P1)"),
+	CHOICE("pressure_solver.method", pressure_solver.method, 0, "auto", methods,
+		"auto: conjugate-gradients or block-direct, by what the last steps cost; "
+		"block-gauss-seidel: as P1; lapack-band: bits depend on the machine"),
 	CHOICE("pressure_solver.operator", pressure_solver.operator_, 0, "symmetric", operators,
 		"discrete operator: symmetric, or pointwise as P1 Appendix A (for its tables)"),
 	CHOICE("pressure_solver.start", pressure_solver.start, 0, "zero", starts,
 		"first guess of the fluctuation where n_ini_guess is 0: zero, or that of the previous step"),
+	CHOICE("pressure_solver.criterion", pressure_solver.criterion, 0, "residual", criteria,
+		"what stops the iteration: the true residual, or the increment of a sweep (P1)"),
+	REAL(pressure_solver.residual, 0, "1", "1e-8", "(0, 1)",
+		"with criterion residual: the relative residual |b - A x|/|b| at which it stops"),
 	CHOICE("pressure_solver.norm", pressure_solver.norm, 0, "l2", norms,
 		"norm of a sweep's increment that stops the iteration"),
 	REAL(pressure_solver.tolerance, 0, "m2/s2", "1e-6 m2/s2", "(0, inf)",
 		"value of that norm at which it stops"),
+	REAL(pressure_solver.relaxation, 0, "1", "0", "[0, 2)",
+		"over-relaxation factor of red-black-line-relaxation; 0: chosen from the number of layers"),
 	INTEGER(pressure_solver.max_iterations, 0, "20000", "[1, inf)",
 		"sweeps after which the solver has failed"),
 
@@ -129,7 +147,15 @@ static const struct field fields[] = {
 		"wall clock between checkpoints; 0: off"),
 	INTEGER(checkpoint.every_steps, FIELD_PASSIVE, "0", "[0, inf)",
 		"steps between checkpoints; 0: off"),
+
+	INTEGER(threads, FIELD_PASSIVE, "1", "[1, 256]",
+		"processors that share one run; does not change its numbers"),
 };
 /* clang-format on */
+
+bool config_symmetric_only(int method)
+{
+	return method == METHOD_CONJUGATE_GRADIENTS || method == METHOD_BLOCK_DIRECT;
+}
 
 const struct field_table config_table = {fields, sizeof fields / sizeof *fields};

@@ -2,13 +2,23 @@
  * the three steps of a time step. Letters follow the papers.
  *
  * Layout: a field of cells is one row of `grid.stride` values per layer, bottom layer first, with a
- * ghost cell at either end; a field of faces is one row of `grid.faces` values per layer. Every loop
- * runs along x inside and over the layers outside, so that the compiler can vectorise it. */
+ * ghost cell at either end; a field of faces is one row of `grid.faces` values per layer. A step goes
+ * over the cells in chunks (chunk.h) that are short enough to stay in the second-level cache with all
+ * their layers: memory is read once per step and not once per loop. Within a chunk the layers are
+ * outside and x is inside, in plain loops over rows that do not overlap and that the compiler turns
+ * into vectors of whichever width the processor has (kernel.h). Such a loop writes one value per cell
+ * or face and never sums along x, so its bits do not depend on that width; sums over the layers are
+ * kept in rows of cells, one term per layer and always from the bottom up; what is summed along x, for
+ * the series, is summed cell by cell in order. What all layers of a face or cell share (wave speeds,
+ * reconstructions, the thickness that carries the friction) is in rows on the stack, in the
+ * first-level cache. A chunk writes its own cells only, and what it needs of its neighbours it works
+ * out again: threads take chunks and wait for each other only between the parts of a step. */
 #ifndef TALUS_DRY_H
 #define TALUS_DRY_H
 
 #include <stdint.h>
 
+#include "base/kernel.h"
 #include "case/grid.h"
 #include "linear/pressure_solver.h"
 #include "talus/config.h"
@@ -48,6 +58,8 @@ struct pressure_input {
 
 struct pressure_operator {
 	const char *name;
+	bool symmetric;
+	/* Right side and matrix: bands where the system has them, the cells of a symmetric one. */
 	void (*assemble)(const struct pressure_input *input, struct pressure_system *system);
 };
 
@@ -57,7 +69,7 @@ extern const struct pressure_operator operator_symmetric, operator_pointwise;
 struct projection {
 	int layers;
 	struct pressure_system system;
-	void *scratch; /* of the solver */
+	void *memory;  /* of the solver */
 	double *u, *w; /* layer averages, [layers][stride]; NULL in the full problem */
 };
 
@@ -65,6 +77,8 @@ struct model_state {
 	struct dry_parameters par;
 	struct grid grid;
 	int layers;
+	int threads;     /* that share the chunks */
+	int chunk_cells; /* in a chunk at most, a multiple of LANES */
 
 	/* The exact state. */
 	double *h;    /* thickness, [stride], m */
@@ -79,11 +93,16 @@ struct model_state {
 	/* Velocities u_a, w_a: at t^n through transport and friction, then of the new state,
 	 * [layers][stride], m/s. */
 	double *u, *w;
+	double *mean;    /* u over the layers, [stride], m/s */
+	double *fastest; /* largest |u| of the layers, [stride], m/s */
+	double *squares; /* sum of u^2 + w^2 over the layers, [stride], m2/s2 */
 
-	double *cell[8];  /* scratch rows of cells, [stride] */
-	double *face[10]; /* scratch rows of faces, [faces] */
-	double *work;     /* scratch of friction, [layers][stride] */
-	bool *dry;        /* [faces], q is 0 there */
+	double *next;        /* thickness after transport, [stride], m */
+	double end_flux[2];  /* of mass at the ends in the last step, m2/s */
+	const double *force; /* the pressure whose force is being added */
+	double *face[6];     /* scratch rows of faces, [faces] */
+	double *work;        /* scratch of friction, [layers][stride] */
+	bool *dry;           /* [faces], q is 0 there */
 
 	const struct pressure_operator *operator_;
 	const struct pressure_solver *solver;
@@ -95,13 +114,14 @@ struct model_state {
 	double cpu[3]; /* transport, friction, pressure, s */
 	int iterations, coarse_iterations;
 	double residual;
+	int method; /* enum method_kind that solved the full system; 0 before the first step */
 
 	double *x, *layer_middle, *layer_interface; /* axes of the run file */
 	double *memory;
 };
 
 /* mu(I) of P1 2.1, from the shear |d_z u| in 1/s and p/rho in m2/s2. */
-static inline double dry_mu(const struct dry_parameters *par, double shear, double p)
+KERNEL_PART double dry_mu(const struct dry_parameters *par, double shear, double p)
 {
 	/* I = d |d_z u| sqrt(rho_s/p); at p = 0 the largest friction, and no stress either way */
 	double inertia = par->inertia * shear;
@@ -110,7 +130,7 @@ static inline double dry_mu(const struct dry_parameters *par, double shear, doub
 		   (par->mu_2 - par->mu_s) * inertia / (par->i_0 * __builtin_sqrt(p) + inertia + 1e-300);
 }
 
-/* Velocities from discharges, zero where the cell is dry, with ghosts. */
+/* Velocities from discharges, zero where the cell is dry, with ghosts; and what their layers sum up to. */
 void dry_velocities(struct model_state *s);
 
 /* Set the cells under DRY_NO_PRESSURE back to slow: U and W times a factor that vanishes with h. */
@@ -130,7 +150,7 @@ int dry_pressure(struct model_state *s, double dt, struct error *err);
 void dry_add_pressure_force(struct model_state *s, const double *p, double dt);
 
 /* Series and profiles (observe.c), as struct model describes them. */
-enum { DRY_SERIES_COUNT = 13, DRY_PROFILE_COUNT = 6 };
+enum { DRY_SERIES_COUNT = 14, DRY_PROFILE_COUNT = 6 };
 extern const struct series dry_series[DRY_SERIES_COUNT];
 extern const struct profile dry_profiles[DRY_PROFILE_COUNT];
 void dry_observe(const struct model_state *s, double *values);

@@ -4,118 +4,183 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/kernel.h"
+#include "dry/chunk.h"
 #include "dry/dry.h"
+
+/* What the layers of a chunk share; cell k is cell `first` + k of the grid. */
+struct columns {
+	int cells;
+	double hs[CHUNK_CELLS];   /* thickness that carries the friction, m */
+	double h[CHUNK_CELLS];    /* thickness that the shear is taken over, m */
+	double down[CHUNK_CELLS]; /* dt N k of the interface below the layer at hand, m */
+};
 
 /* The thickness that carries the friction, P1 (25) as it reproduces P1 Table 6: smoothed where the
  * surface is below the angle of repose, and doubled there while the column is at rest. */
-static void friction_thickness(const struct model_state *s, double *hs)
+KERNEL_PART void friction_thickness(
+	const struct model_state *s, struct chunk chunk, struct columns *c)
 {
-	const double *h = s->h, *b = s->b, *bottom = s->u;
-	const double *top = s->u + (size_t)(s->layers - 1) * s->grid.stride;
+	size_t first = (size_t)chunk.first;
+	const double *restrict h = s->h + first, *restrict b = s->b + first;
+	const double *restrict bottom = s->u + first;
+	const double *restrict top = s->u + (size_t)(s->layers - 1) * s->grid.stride + first;
 	double limit = 2 * s->grid.dx * s->par.mu_s * (1 + 1e-9);
-	double rest = 100 * s->par.delta_velocity, plane = -2 * s->par.tan_slope * s->grid.dx;
+	double rest = 100 * s->par.delta_velocity, plane[CHUNK_CELLS] = {0};
 
-	for (int i = 1; i <= s->grid.cells; i++) {
-		/* the plane is mirrored at a wall */
-		double half =
-			(i == 1 && s->grid.left_wall) || (i == s->grid.cells && s->grid.right_wall) ? 0.5 : 1;
-		double jump = h[i + 1] + b[i + 1] - h[i - 1] - b[i - 1] + half * plane;
-		double smooth = 0.5 * h[i] + 0.25 * (h[i - 1] + h[i + 1]);
-		bool below = fabs(jump) <= limit;
-		bool at_rest = fabs(bottom[i]) < rest && fabs(top[i]) < rest;
+	for (int k = 0; k < c->cells; k++)
+		plane[k] = -2 * s->par.tan_slope * s->grid.dx;
+	if (chunk.first == 1 && s->grid.left_wall) /* the plane is mirrored at a wall */
+		plane[0] *= 0.5;
+	if (chunk.last == s->grid.cells && s->grid.right_wall)
+		plane[c->cells - 1] = -s->par.tan_slope * s->grid.dx;
+	for (int k = 0; k < c->cells; k++) {
+		double jump = h[k + 1] + b[k + 1] - h[k - 1] - b[k - 1] + plane[k];
+		double smooth = 0.5 * h[k] + 0.25 * (h[k - 1] + h[k + 1]);
+		double speed = fabs(bottom[k]) > fabs(top[k]) ? fabs(bottom[k]) : fabs(top[k]);
+		double carries = speed < rest ? 2 * smooth : smooth;
 
-		hs[i] = below ? (at_rest ? 2 * smooth : smooth) : h[i];
+		c->hs[k] = fabs(jump) <= limit ? carries : h[k];
+		c->h[k] = h[k] > DRY_ONE_LAYER ? h[k] : DRY_ONE_LAYER;
 	}
 }
 
-/* Coefficient at the interface below layer a: tau/rho per velocity difference, P1 (10), (11), m/s. */
-static void interface_coefficient(const struct model_state *s, int a, const double *hs, double *k)
+/* tau/rho per velocity difference at the bottom, P1 (11), m/s. The shear there is taken over the whole
+ * lowest layer. */
+KERNEL_PART double bottom_coefficient(
+	const struct dry_parameters *par, double n, double h, double u, double p)
 {
-	const struct dry_parameters *par = &s->par;
-	const double *u = s->u + (size_t)a * s->grid.stride, *down = u - s->grid.stride;
-	const double *q = s->q + (size_t)a * (size_t)s->grid.faces;
-	double n = s->layers, share = par->gc * (n - a) / n;
+	double slip = fabs(u);
 
-	for (int i = 1; i <= s->grid.cells; i++) {
-		double h = s->h[i] > DRY_ONE_LAYER ? s->h[i] : DRY_ONE_LAYER;
-		double p = share * hs[i] + 0.5 * (q[i - 1] + q[i]);
+	return dry_mu(par, slip * n / h, p) * p /
+		   __builtin_sqrt(slip * slip + par->delta_velocity * par->delta_velocity);
+}
 
-		p = p > 0 ? p : 0;
-		if (a == 0) {
-			/* the shear at the bottom is taken over the whole lowest layer */
-			double slip = fabs(u[i]);
+/* The same between two layers, P1 (10). */
+KERNEL_PART double inner_coefficient(
+	const struct dry_parameters *par, double n, double h, double jump, double p)
+{
+	double shear = fabs(jump) * n / h;
 
-			k[i] = dry_mu(par, slip * n / h, p) * p /
-				   sqrt(slip * slip + par->delta_velocity * par->delta_velocity);
-		} else {
-			double shear = fabs(u[i] - down[i]) * n / h;
-
-			k[i] = dry_mu(par, shear, p) * p * n /
-				   (2 * h * sqrt(0.25 * shear * shear + par->delta_strain * par->delta_strain));
-		}
-	}
+	return dry_mu(par, shear, p) * p * n /
+		   (2 * h * __builtin_sqrt(0.25 * shear * shear + par->delta_strain * par->delta_strain));
 }
 
 /* Below DRY_ONE_LAYER a column slides as one, held by Coulomb friction (P1 Remark 2). */
-static void slide_as_one(struct model_state *s, int i, double dt)
+KERNEL_PART void slide_as_one(
+	const struct model_state *s, struct chunk chunk, const double *restrict h, int cells, double dt)
 {
 	const struct dry_parameters *par = &s->par;
-	size_t stride = s->grid.stride;
-	double sum = 0, h = s->h[i], ubar, speed;
+	double sum[CHUNK_CELLS] = {0}, delta = par->delta_velocity;
+	double *restrict U = s->U + chunk.first;
 
-	for (int a = 0; a < s->layers; a++)
-		sum += s->U[(size_t)a * stride + (size_t)i];
-	sum /= s->layers;
-	ubar = h > DRY_NO_MOMENTUM ? sum / h : 0;
-	speed = sqrt(ubar * ubar + par->delta_velocity * par->delta_velocity);
-	sum /= 1 + dt * par->mu_s * par->gc / speed;
-	for (int a = 0; a < s->layers; a++)
-		s->U[(size_t)a * stride + (size_t)i] = h > DRY_NO_MOMENTUM ? sum : 0;
+	for (int a = 0; a < s->layers; a++, U += s->grid.stride)
+		for (int k = 0; k < cells; k++)
+			sum[k] += U[k];
+	for (int k = 0; k < cells; k++) {
+		double U_mean = sum[k] / s->layers, u = h[k] > DRY_NO_MOMENTUM ? U_mean / h[k] : 0;
+		double speed = __builtin_sqrt(u * u + delta * delta);
+
+		sum[k] = h[k] > DRY_NO_MOMENTUM ? U_mean / (1 + dt * par->mu_s * par->gc / speed) : 0;
+	}
+	U = s->U + chunk.first;
+	for (int a = 0; a < s->layers; a++, U += s->grid.stride)
+		for (int k = 0; k < cells; k++)
+			U[k] = h[k] < DRY_ONE_LAYER ? sum[k] : U[k];
+}
+
+/* The interface below layer 1, where the elimination begins. */
+KERNEL_PART void begin(
+	const struct model_state *s, struct chunk chunk, struct columns *c, double dt)
+{
+	const struct dry_parameters par = s->par;
+	const double *restrict h = s->h + chunk.first, *restrict u = s->u + chunk.first;
+	const double *restrict q = s->q + chunk.first - 1;
+	double n = s->layers, share = par.gc;
+
+	for (int k = 0; k < c->cells; k++) {
+		double p = share * c->hs[k] + 0.5 * (q[k] + q[k + 1]);
+		double bottom = bottom_coefficient(&par, n, c->h[k], u[k], p > 0 ? p : 0);
+
+		c->down[k] = h[k] < DRY_ONE_LAYER ? 0 : dt * n * bottom;
+	}
+}
+
+/* One layer on the way up: U becomes the eliminated right side and `ratio` the upper diagonal. `before`
+ * and `below` are those of the layer below, `u_up` and `q_up` of the one above. */
+KERNEL_PART void eliminate(const struct dry_parameters *par_, struct columns *c, double n,
+	double share, double dt, bool top, const double *restrict h, const double *restrict u,
+	const double *restrict u_up, const double *restrict q_up, const double *restrict before,
+	const double *restrict below, double *restrict U, double *restrict ratio)
+{
+	const struct dry_parameters par = *par_;
+
+	for (int k = 0; k < c->cells; k++) {
+		double kd = c->down[k], ku = 0, pivot;
+
+		if (!top) {
+			double p = share * c->hs[k] + 0.5 * (q_up[k] + q_up[k + 1]);
+			double inner = inner_coefficient(&par, n, c->h[k], u_up[k] - u[k], p > 0 ? p : 0);
+
+			ku = h[k] < DRY_ONE_LAYER ? 0 : dt * n * inner;
+		}
+		pivot = 1 / ((h[k] + 1e-300) + ku + kd * (1 - before[k]));
+		U[k] = (U[k] + kd * below[k]) * pivot;
+		ratio[k] = ku * pivot;
+		c->down[k] = ku;
+	}
+}
+
+/* One layer on the way down: its velocity, with which the discharge of the layer above is done. */
+KERNEL_PART void substitute(int cells, const double *restrict h, const double *restrict ratio,
+	double *restrict U, double *restrict U_up)
+{
+	for (int k = 0; k < cells; k++) {
+		U[k] += ratio[k] * U_up[k];
+		U_up[k] *= h[k];
+	}
 }
 
 /* P1 (24) by the Thomas algorithm: h u_a - dt N [k_up (u_{a+1} - u_a) - k_down (u_a - u_{a-1})] = U_a.
- * `ratio` [layers][stride] holds the eliminated upper diagonal; U turns into u on the way up and back
- * into h u on the way down. */
+ * U turns into u on the way up and back into h u on the way down. */
+KERNEL static void friction(struct model_state *s, struct chunk chunk, double dt)
+{
+	static const double zeros[CHUNK_CELLS];
+	struct columns c = {.cells = chunk.last - chunk.first + 1};
+	size_t first = (size_t)chunk.first, stride = s->grid.stride, faces = (size_t)s->grid.faces;
+	const double *h = s->h + first;
+	int last = s->layers - 1, thin = 0;
+	double n = s->layers;
+
+	for (int k = 0; k < c.cells; k++)
+		thin |= h[k] < DRY_ONE_LAYER;
+	if (thin)
+		slide_as_one(s, chunk, h, c.cells, dt);
+	friction_thickness(s, chunk, &c);
+	begin(s, chunk, &c, dt);
+	for (int a = 0; a <= last; a++) {
+		size_t row = (size_t)a * stride + first;
+		double *U = s->U + row, *ratio = s->work + row;
+		const double *u = s->u + row, *below = a > 0 ? U - stride : zeros;
+		const double *before = a > 0 ? ratio - stride : zeros;
+		const double *q_up = s->q + ((size_t)a + 1) * faces + first - 1;
+
+		if (a < last)
+			eliminate(&s->par, &c, n, s->par.gc * (n - a - 1) / n, dt, false, h, u, u + stride,
+				q_up, before, below, U, ratio);
+		else
+			eliminate(&s->par, &c, n, 0, dt, true, h, u, u, q_up, before, below, U, ratio);
+	}
+	for (int a = last - 1; a >= 0; a--) {
+		size_t row = (size_t)a * stride + first;
+
+		substitute(c.cells, h, s->work + row, s->U + row, s->U + row + stride);
+	}
+	for (int k = 0; k < c.cells; k++)
+		s->U[first + (size_t)k] *= h[k];
+}
+
 void dry_friction(struct model_state *s, double dt)
 {
-	double *hs = s->cell[0], *down = s->cell[1], *up = s->cell[2], *ratio = s->work;
-	size_t stride = s->grid.stride;
-	double scale = dt * s->layers;
-	int cells = s->grid.cells, last = s->layers - 1;
-
-	for (int i = 1; i <= cells; i++)
-		if (s->h[i] < DRY_ONE_LAYER)
-			slide_as_one(s, i, dt);
-	friction_thickness(s, hs);
-	interface_coefficient(s, 0, hs, down);
-	for (int a = 0; a <= last; a++) {
-		double *U = s->U + (size_t)a * stride, *r = ratio + (size_t)a * stride;
-
-		if (a < last)
-			interface_coefficient(s, a + 1, hs, up);
-		else
-			memset(up, 0, stride * sizeof *up);
-		for (int i = 1; i <= cells; i++) {
-			double before = a > 0 ? (r - stride)[i] : 0, below = a > 0 ? (U - stride)[i] : 0;
-			bool thin = s->h[i] < DRY_ONE_LAYER;
-			double kd = thin ? 0 : scale * down[i], ku = thin ? 0 : scale * up[i];
-			double pivot = 1 / ((s->h[i] + 1e-300) + ku + kd * (1 - before));
-
-			U[i] = (U[i] + kd * below) * pivot;
-			r[i] = ku * pivot;
-		}
-		memcpy(down, up, stride * sizeof *down);
-	}
-	for (int a = last; a >= 0; a--) {
-		double *U = s->U + (size_t)a * stride, *r = ratio + (size_t)a * stride;
-
-		if (a < last)
-			for (int i = 1; i <= cells; i++)
-				U[i] += r[i] * (U + stride)[i];
-		if (a < last)
-			for (int i = 1; i <= cells; i++)
-				(U + stride)[i] *= s->h[i];
-	}
-	for (int i = 1; i <= cells; i++)
-		s->U[i] *= s->h[i];
+	chunk_each(s, friction, dt);
 }

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "case/initial.h"
+#include "dry/chunk.h"
 #include "dry/dry.h"
 
 #define GRAVITY 9.81 /* m/s2 */
@@ -62,8 +63,10 @@ static size_t layout(struct model_state *s, double *memory)
 	s->q = place(&next, n * faces);
 	s->dq = place(&next, n * faces);
 	s->mass = place(&next, 2);
-	for (size_t i = 0; i < sizeof s->cell / sizeof *s->cell; i++)
-		s->cell[i] = place(&next, stride);
+	s->mean = place(&next, stride);
+	s->fastest = place(&next, stride);
+	s->squares = place(&next, stride);
+	s->next = place(&next, stride);
 	for (size_t i = 0; i < sizeof s->face / sizeof *s->face; i++)
 		s->face[i] = place(&next, faces);
 	s->work = place(&next, n * stride);
@@ -72,13 +75,20 @@ static size_t layout(struct model_state *s, double *memory)
 	s->layer_interface = place(&next, n + 1);
 	s->coarse.u = coarse ? place(&next, coarse * stride) : NULL;
 	s->coarse.w = coarse ? place(&next, coarse * stride) : NULL;
-	return (11 + 5 * n + 2 * coarse) * stride + (10 + 2 * n) * faces + 2 * n + 3;
+	return (7 + 5 * n + 2 * coarse) * stride + (6 + 2 * n) * faces + 2 * n + 3;
 }
 
-static int projection_init(struct model_state *s, struct projection *problem, struct error *err)
+static int projection_init(struct model_state *s, const struct config *config,
+	struct projection *problem, struct error *err)
 {
-	TRY(pressure_system_init(&problem->system, problem->layers, s->grid.faces, err));
-	return s->solver->create(problem->layers, s->grid.faces, &problem->scratch, err);
+	const struct pressure_options options = {.relaxation = config->pressure_solver.relaxation,
+		.threads = s->threads,
+		.symmetric = s->operator_->symmetric};
+
+	TRY(pressure_system_init(
+		&problem->system, problem->layers, s->grid.faces, !s->solver->matrix_free, err));
+	problem->system.symmetric = s->operator_->symmetric;
+	return s->solver->create(problem->layers, s->grid.faces, &options, &problem->memory, err);
 }
 
 static void destroy(struct model_state *s)
@@ -89,7 +99,7 @@ static void destroy(struct model_state *s)
 
 	for (size_t i = 0; i < 2; i++) {
 		pressure_system_clean(&problems[i]->system);
-		s->solver->free(problems[i]->scratch);
+		s->solver->free(problems[i]->memory);
 	}
 	free(s->dry);
 	free(s->memory);
@@ -122,10 +132,15 @@ static int create(const struct config *config, struct model_state **out, struct 
 	s->par = parameters(config);
 	s->grid = grid_make(config);
 	s->layers = s->full.layers = config->layers;
+	s->threads = config->threads;
+	s->chunk_cells = chunk_cells(s->layers);
 	s->operator_ = operators[config->pressure_solver.operator_];
-	s->solver = pressure_solver_find(config->pressure_solver.method);
-	s->rule = (struct stopping_rule){config->pressure_solver.norm,
-		config->pressure_solver.tolerance, config->pressure_solver.max_iterations};
+	s->solver = pressure_solver_find(config->pressure_solver.method, s->operator_->symmetric);
+	s->rule = (struct stopping_rule){.criterion = config->pressure_solver.criterion,
+		.norm = config->pressure_solver.norm,
+		.tolerance = config->pressure_solver.tolerance,
+		.residual = config->pressure_solver.residual,
+		.max_iterations = config->pressure_solver.max_iterations};
 	s->start_previous = config->pressure_solver.start == START_PREVIOUS;
 	s->coarse.layers = s->par.non_hydrostatic ? config->n_ini_guess : 0;
 	count = layout(s, NULL);
@@ -136,8 +151,8 @@ static int create(const struct config *config, struct model_state **out, struct 
 		return error_memory(err, count * sizeof *s->memory);
 	}
 	(void)layout(s, s->memory);
-	if ((s->par.non_hydrostatic && projection_init(s, &s->full, err)) ||
-		(s->coarse.layers && projection_init(s, &s->coarse, err))) {
+	if ((s->par.non_hydrostatic && projection_init(s, config, &s->full, err)) ||
+		(s->coarse.layers && projection_init(s, config, &s->coarse, err))) {
 		destroy(s);
 		return -1;
 	}
@@ -146,38 +161,96 @@ static int create(const struct config *config, struct model_state **out, struct 
 	return 0;
 }
 
+/* Velocities of a layer, and what they add to the sums over the layers; w is 0 and stays so where the
+ * pressure is hydrostatic. */
+KERNEL_PART void layer_velocities(int cells, bool hydrostatic, const double *restrict inverse,
+	const double *restrict U, const double *restrict W, double *restrict u, double *restrict w,
+	double *restrict sum, double *restrict fastest, double *restrict squares)
+{
+	for (int k = 0; k < cells; k++) {
+		double along = U[k] * inverse[k], normal = hydrostatic ? 0 : W[k] * inverse[k];
+		double speed = fabs(along);
+
+		u[k] = along;
+		if (!hydrostatic)
+			w[k] = normal;
+		sum[k] += along;
+		fastest[k] = speed > fastest[k] ? speed : fastest[k];
+		squares[k] += along * along + normal * normal;
+	}
+}
+
+KERNEL static void velocities(struct model_state *s, struct chunk chunk, double dt)
+{
+	size_t row = (size_t)chunk.first, bytes;
+	const double *restrict h = s->h + row;
+	double *restrict mean = s->mean + row;
+	double *restrict fastest = s->fastest + row, *restrict squares = s->squares + row;
+	double inverse[CHUNK_CELLS];
+	int cells = chunk.last - chunk.first + 1;
+
+	(void)dt;
+	bytes = (size_t)cells * sizeof *mean;
+	memset(mean, 0, bytes);
+	memset(fastest, 0, bytes);
+	memset(squares, 0, bytes);
+	for (int k = 0; k < cells; k++)
+		inverse[k] = h[k] > DRY_NO_MOMENTUM ? 1 / h[k] : 0;
+	for (int a = 0; a < s->layers; a++, row += s->grid.stride) {
+		if (s->par.non_hydrostatic)
+			layer_velocities(cells, false, inverse, s->U + row, s->W + row, s->u + row, s->w + row,
+				mean, fastest, squares);
+		else
+			layer_velocities(cells, true, inverse, s->U + row, s->W + row, s->u + row, s->w + row,
+				mean, fastest, squares);
+	}
+	for (int k = 0; k < cells; k++)
+		mean[k] /= s->layers;
+}
+
 void dry_velocities(struct model_state *s)
 {
+	chunk_each(s, velocities, 0);
+	grid_fill_odd(&s->grid, s->mean);
 	for (int a = 0; a < s->layers; a++) {
-		size_t row = (size_t)a * s->grid.stride;
-		const double *h = s->h, *U = s->U + row, *W = s->W + row;
-		double *u = s->u + row, *w = s->w + row;
+		grid_fill_odd(&s->grid, s->u + (size_t)a * s->grid.stride);
+		grid_fill_even(&s->grid, s->w + (size_t)a * s->grid.stride);
+	}
+}
 
-		for (int i = 1; i <= s->grid.cells; i++) {
-			double inverse = h[i] > DRY_NO_MOMENTUM ? 1 / h[i] : 0;
+KERNEL_PART void scale(int cells, const double *restrict factor, double *restrict discharge)
+{
+	for (int k = 0; k < cells; k++)
+		discharge[k] *= factor[k];
+}
 
-			u[i] = U[i] * inverse;
-			w[i] = W[i] * inverse;
-		}
-		grid_fill_odd(&s->grid, u);
-		grid_fill_even(&s->grid, w);
+KERNEL static void damp(struct model_state *s, struct chunk chunk, double dt)
+{
+	const double *restrict h = s->h + chunk.first;
+	int cells = chunk.last - chunk.first + 1, thin = 0;
+	size_t row = (size_t)chunk.first, stride = s->grid.stride;
+	double factor[CHUNK_CELLS];
+
+	(void)dt;
+	for (int k = 0; k < cells; k++)
+		thin |= h[k] < DRY_NO_PRESSURE;
+	if (!thin)
+		return;
+	for (int k = 0; k < cells; k++) {
+		double h2 = h[k] * h[k], slow = sqrt(2) * h2 / __builtin_sqrt(h2 * h2 + 1e-20);
+
+		factor[k] = h[k] >= DRY_NO_PRESSURE ? 1 : h[k] < DRY_NO_MOMENTUM ? 0 : slow;
+	}
+	for (int a = 0; a < s->layers; a++, row += stride) {
+		scale(cells, factor, s->U + row);
+		if (s->par.non_hydrostatic)
+			scale(cells, factor, s->W + row);
 	}
 }
 
 void dry_damp(struct model_state *s)
 {
-	for (int i = 1; i <= s->grid.cells; i++) {
-		double h2 = s->h[i] * s->h[i], factor = sqrt(2) * h2 / sqrt(h2 * h2 + 1e-20);
-
-		if (s->h[i] >= DRY_NO_PRESSURE)
-			continue;
-		if (s->h[i] < DRY_NO_MOMENTUM)
-			factor = 0;
-		for (int a = 0; a < s->layers; a++) {
-			s->U[(size_t)a * s->grid.stride + (size_t)i] *= factor;
-			s->W[(size_t)a * s->grid.stride + (size_t)i] *= factor;
-		}
-	}
+	chunk_each(s, damp, 0);
 }
 
 /* P1 (14), with either reading of the wave speed. */
@@ -186,16 +259,10 @@ static double time_step(const struct model_state *s)
 	double fastest = 0;
 
 	for (int i = 1; i <= s->grid.cells; i++) {
-		double speed = 0, sum = 0, lambda;
+		double speed = s->par.fastest ? s->fastest[i] : fabs(s->mean[i]);
+		double lambda = speed + sqrt(s->par.gc * s->h[i]);
 
-		for (int a = 0; a < s->layers; a++) {
-			double u = s->u[(size_t)a * s->grid.stride + (size_t)i];
-
-			sum += u;
-			speed = fmax(speed, fabs(u));
-		}
-		lambda = (s->par.fastest ? speed : fabs(sum) / s->layers) + sqrt(s->par.gc * s->h[i]);
-		if (isnan(sum + lambda)) /* fmax passes over a NaN */
+		if (isnan(s->mean[i] + lambda)) /* the fastest layer passes over a NaN */
 			return NAN;
 		fastest = lambda > fastest ? lambda : fastest;
 	}
@@ -206,15 +273,10 @@ static double time_step(const struct model_state *s)
 static int check(const struct model_state *s, struct error *err)
 {
 	for (int i = 1; i <= s->grid.cells; i++) {
-		double sum = s->h[i];
-
 		if (s->h[i] < 0)
 			return error_set(err, EX_FAILED, "negative thickness %g m at x = %g m", s->h[i],
 				grid_centre(&s->grid, i));
-		for (int a = 0; a < s->layers; a++)
-			sum += fabs(s->u[(size_t)a * s->grid.stride + (size_t)i]) +
-				   fabs(s->w[(size_t)a * s->grid.stride + (size_t)i]);
-		if (!isfinite(sum))
+		if (!isfinite(s->h[i] + s->squares[i]))
 			return error_set(err, EX_FAILED, "the state is not finite (thickness %g m) at x = %g m",
 				s->h[i], grid_centre(&s->grid, i));
 	}
@@ -247,6 +309,19 @@ static struct axes axes(const struct model_state *s)
 	return (struct axes){s->grid.cells, s->layers, s->x, s->layer_middle, s->layer_interface};
 }
 
+/* What a pressure solver keeps between steps, if it does. */
+static size_t solver_array(const struct model_state *s, const struct projection *problem,
+	const char *name, struct array *out)
+{
+	size_t count;
+
+	if (!problem->memory || !s->solver->kept)
+		return 0;
+	*out = (struct array){name, s->solver->kept(problem->memory, &count), {1, 0}};
+	out->extent[1] = count;
+	return 1;
+}
+
 static size_t arrays(struct model_state *s, struct array *list)
 {
 	size_t stride = s->grid.stride, faces = (size_t)s->grid.faces, n = (size_t)s->layers, i = 0;
@@ -257,12 +332,14 @@ static size_t arrays(struct model_state *s, struct array *list)
 	list[i++] = (struct array){"q", s->q, {n, faces}};
 	list[i++] = (struct array){"dq", s->dq, {n, faces}};
 	list[i++] = (struct array){"mass", s->mass, {1, 2}};
+	i += solver_array(s, &s->full, "solver", &list[i]);
+	i += solver_array(s, &s->coarse, "coarse_solver", &list[i]);
 	return i;
 }
 
 const struct model dry_model = {
 	.name = "dry",
-	.numerics_version = 1,
+	.numerics_version = 2,
 	.series = dry_series,
 	.series_count = DRY_SERIES_COUNT,
 	.profiles = dry_profiles,

@@ -14,6 +14,7 @@ enum {
 	PRESSURE_ITERATIONS,
 	COARSE_ITERATIONS,
 	PRESSURE_RESIDUAL,
+	PRESSURE_METHOD,
 	CPU_TRANSPORT,
 	CPU_FRICTION,
 	CPU_PRESSURE,
@@ -62,6 +63,13 @@ const struct series dry_series[DRY_SERIES_COUNT] = {
 	[PRESSURE_RESIDUAL] = {.name = "pressure_residual",
 		.units = "1",
 		.long_name = "true relative residual of the pressure system",
+		.slope_of = -1},
+	[PRESSURE_METHOD] = {.name = "pressure_method",
+		.units = "1",
+		.long_name = "method of the pressure solve: 0 none, 1 block-gauss-seidel, 2 "
+					 "block-gauss-seidel-factored, 3 red-black-line-relaxation, 4 "
+					 "conjugate-gradients, 5 block-direct, 6 lapack-band",
+		.whole = true,
 		.slope_of = -1},
 	[CPU_TRANSPORT] = {.name = "cpu_transport",
 		.units = "s",
@@ -115,15 +123,10 @@ static double energy(const struct model_state *s)
 	double sum = 0, end = s->grid.x_min + s->grid.cells * s->grid.dx;
 
 	for (int i = 1; i <= s->grid.cells; i++) {
-		double kinetic = 0, plane = (end - grid_centre(&s->grid, i)) * s->par.tan_slope;
+		double plane = (end - grid_centre(&s->grid, i)) * s->par.tan_slope;
 
-		for (int a = 0; a < s->layers; a++) {
-			size_t k = (size_t)a * s->grid.stride + (size_t)i;
-
-			kinetic += s->u[k] * s->u[k] + s->w[k] * s->w[k];
-		}
-		sum +=
-			s->h[i] * (0.5 * kinetic / s->layers + s->par.gc * (plane + s->b[i] + 0.5 * s->h[i]));
+		sum += s->h[i] *
+			   (0.5 * s->squares[i] / s->layers + s->par.gc * (plane + s->b[i] + 0.5 * s->h[i]));
 	}
 	return s->par.rho * s->grid.dx * sum;
 }
@@ -134,11 +137,9 @@ void dry_observe(const struct model_state *s, double *values)
 
 	for (int i = 1; i <= s->grid.cells; i++) {
 		mass += s->h[i];
-		thickest = fmax(thickest, s->h[i]);
+		thickest = s->h[i] > thickest ? s->h[i] : thickest;
+		speed = s->fastest[i] > speed ? s->fastest[i] : speed;
 	}
-	for (int a = 0; a < s->layers; a++)
-		for (int i = 1; i <= s->grid.cells; i++)
-			speed = fmax(speed, fabs(s->u[(size_t)a * s->grid.stride + (size_t)i]));
 	values[FRONT_POSITION] = front(s);
 	values[MAX_SPEED] = speed;
 	values[MAX_THICKNESS] = thickest;
@@ -148,6 +149,7 @@ void dry_observe(const struct model_state *s, double *values)
 	values[PRESSURE_ITERATIONS] = s->iterations;
 	values[COARSE_ITERATIONS] = s->coarse_iterations;
 	values[PRESSURE_RESIDUAL] = s->residual;
+	values[PRESSURE_METHOD] = s->method;
 	values[CPU_TRANSPORT] = s->cpu[0];
 	values[CPU_FRICTION] = s->cpu[1];
 	values[CPU_PRESSURE] = s->cpu[2];

@@ -5,32 +5,6 @@
 
 #include "dry/dry.h"
 
-void dry_add_pressure_force(struct model_state *s, const double *p, double dt)
-{
-	const struct grid *grid = &s->grid;
-	double dx = grid->dx, n = s->layers;
-	const double *h = s->h, *b = s->b;
-
-	for (int a = 0; a < s->layers; a++) {
-		const double *low = p + (size_t)a * (size_t)grid->faces;
-		const double *high = low + grid->faces;
-		double *U = s->U + (size_t)a * grid->stride, *W = s->W + (size_t)a * grid->stride;
-		double top = a == s->layers - 1 ? 0 : 1; /* q = 0 at the surface */
-
-		if (a == s->layers - 1)
-			high = low;
-		for (int i = 1; i <= grid->cells; i++) {
-			double hl = top * high[i - 1], hr = top * high[i];
-			double xi = ((a + 0.5) * (h[i + 1] - h[i - 1]) + n * (b[i + 1] - b[i - 1])) / (2 * dx);
-			double mean = 0.5 * (low[i - 1] + low[i]), mean_high = 0.5 * (hl + hr);
-			double slope = (low[i] - low[i - 1] + hr - hl) / dx;
-
-			U[i] += dt * (-0.5 * h[i] * slope + xi * (mean_high - mean));
-			W[i] += dt * n * (mean - mean_high);
-		}
-	}
-}
-
 /* Faces without non-hydrostatic pressure: open ends, and next to a cell that is nearly dry. */
 static void mark_dry(struct model_state *s)
 {
@@ -59,6 +33,7 @@ static void assemble(struct model_state *s, struct projection *problem, double d
 		.rows = s->face,
 	};
 
+	problem->system.cells.dry = s->dry;
 	s->operator_->assemble(&input, &problem->system);
 	for (int f = 0; f < grid->faces; f++)
 		problem->system.weight[f] = 0.5 * (s->h[f] + s->h[f + 1]) * grid->dx / problem->layers;
@@ -112,19 +87,19 @@ static void start(const struct model_state *s, struct pressure_system *system)
 static int solve(
 	struct model_state *s, struct projection *problem, int *iterations, struct error *err)
 {
-	int done = s->solver->solve(&problem->system, &s->rule, problem->scratch);
+	int done =
+		pressure_solver_solve(s->solver, &problem->system, &s->rule, problem->memory, &s->residual);
 
 	*iterations = done < 0 ? -done : done;
 	if (done >= 0)
 		return 0;
-	double residual = pressure_system_residual(&problem->system);
 	double x = s->grid.x_min + pressure_system_worst_face(&problem->system) * s->grid.dx;
 
 	return error_set(err, EX_FAILED,
 		"the pressure solver (%s, %d layers) did not converge at x = %g m: %s after %d iterations, "
-		"tolerance %g m2/s2, relative residual %.1e",
+		"relative residual %.1e",
 		s->solver->name, problem->layers, round(1e6 * x) / 1e6 + 0.0, /* no -5e-17, no -0 */
-		isfinite(residual) ? "stopped" : "not a number", -done, s->rule.tolerance, residual);
+		isfinite(s->residual) ? "stopped" : "not a number", -done, s->residual);
 }
 
 int dry_pressure(struct model_state *s, double dt, struct error *err)
@@ -149,7 +124,7 @@ int dry_pressure(struct model_state *s, double dt, struct error *err)
 		start(s, system);
 	}
 	TRY(solve(s, &s->full, &s->iterations, err));
-	s->residual = pressure_system_residual(system);
+	s->method = pressure_solver_chosen(s->solver, s->full.memory);
 	for (int a = 0; a < s->layers; a++) {
 		double *q = s->q + (size_t)a * faces, *dq = s->dq + (size_t)a * faces;
 		const double *x = pressure_system_x(system, a);

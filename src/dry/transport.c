@@ -1,188 +1,269 @@
 /* Step 1: an explicit path-conservative HLL step with hydrostatic reconstruction (P1 18-22). */
 #include <math.h>
+#include <string.h>
 
-#include "dry/dry.h"
+#include "base/kernel.h"
+#include "dry/force.h"
 
 /* |d eta/dx| up to this times mu is at rest: exactly 1 would lose slopes that are at the limit. */
 #define REST_MARGIN 1.001
 
-/* What the fluxes of all layers share at every face. */
-struct face_rows {
-	double *alpha0, *alpha1;      /* HLL coefficients, m/s and 1 */
-	double *source, *rest_source; /* S and S~ of the momentum along x, m3/s2 */
-	double *left, *right;         /* h~- and h~+, m */
-	double *mass_flux;            /* m2/s */
-	double *jump;                 /* running sum over the layers of the jumps in G, m2/s */
-	double *flux, *half;          /* numerical flux and (B + S)/2 of the layer at hand */
+enum { ROW = CHUNK_CELLS + 4 };
+
+/* A chunk sees two cells more on either side, as far as there are any: the face at its end may be
+ * limited by what flows out of the cell beyond. Cell j of the window is cell `first` + j of the grid,
+ * and face j lies between its cells j and j + 1. What the fluxes of all layers share at every face: */
+struct window {
+	int first, faces;
+	double alpha0[ROW], alpha1[ROW];      /* HLL coefficients, m/s and 1 */
+	double source[ROW], rest_source[ROW]; /* S and S~ of the momentum along x, m3/s2 */
+	double left[ROW], right[ROW];         /* h~- and h~+, m */
+	double mass_flux[ROW];                /* m2/s */
+	double share[ROW];                    /* part of the flux that its donor can pay, 1 */
 };
 
-static struct face_rows face_rows(const struct model_state *s)
-{
-	double *const *r = s->face;
-
-	return (struct face_rows){r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], r[9]};
-}
-
-static double positive(double x)
+KERNEL_PART double positive(double x)
 {
 	return x > 0 ? x : 0;
 }
 
-/* Difference of the bed and the reference plane over face f; a wall mirrors the plane. */
-static double plane_jump(const struct model_state *s, int f)
+KERNEL_PART double smaller(double a, double b)
 {
-	bool wall = (f == 0 && s->grid.left_wall) || (f == s->grid.cells && s->grid.right_wall);
-
-	return wall ? 0 : -s->par.tan_slope * s->grid.dx;
+	return a < b ? a : b;
 }
 
-/* dC: the part of the surface slope that friction holds (P1, text after 21). */
-static double held_jump(const struct model_state *s, int f, double eta_jump, double ubar, double dt)
+KERNEL_PART double larger(double a, double b)
 {
-	const struct dry_parameters *par = &s->par;
-	double dx = s->grid.dx, h = 0.5 * (s->h[f] + s->h[f + 1]);
-	double u = 0.5 * fabs(s->u[f] + s->u[f + 1]), p = positive(par->gc * h + s->q[f]);
-	double mu = dry_mu(par, h > DRY_NO_MOMENTUM ? u * s->layers / h : 0, p);
-	double force, most;
+	return a > b ? a : b;
+}
 
-	if (par->static_balance)
+/* dC: the part of the surface slope that friction holds (P1, text after 21). `h`, `u`: means of the
+ * thickness and of |u_1| at the face, `q` there at the bottom. */
+KERNEL_PART double held_jump(const struct dry_parameters *par, bool static_balance, double h,
+	double u, double q, double eta_jump, double u_roe, double dt, double dx, double n)
+{
+	double p = positive(par->gc * h + q);
+	double mu = dry_mu(par, h > DRY_NO_MOMENTUM ? u * n / h : 0, p);
+	double force = u_roe / dt - par->gc * eta_jump / dx, most = par->gc * mu;
+
+	if (static_balance)
 		return fabs(eta_jump) <= REST_MARGIN * mu * dx ? -eta_jump : 0;
-	force = ubar / dt - par->gc * eta_jump / dx;
-	most = par->gc * mu;
 	force = force > most ? most : force < -most ? -most : force;
 	return force * dx / par->gc;
 }
 
-/* Reconstructions, wave speeds and the mass flux at every face. `ubar`, `c`: rows of cells. */
-static void prepare_faces(struct model_state *s, const double *ubar, const double *c, double dt)
+/* Difference of the bed and the reference plane over every face; a wall mirrors the plane. */
+KERNEL_PART void plane_jumps(const struct model_state *s, const struct window *r, double *jump)
 {
-	struct face_rows r = face_rows(s);
-	const double *h = s->h, *b = s->b;
+	for (int j = 0; j < r->faces; j++)
+		jump[j] = -s->par.tan_slope * s->grid.dx;
+	if (r->first == 0 && s->grid.left_wall)
+		jump[0] = 0;
+	if (r->first + r->faces == s->grid.faces && s->grid.right_wall)
+		jump[r->faces - 1] = 0;
+}
+
+/* Wave speeds by Roe's averages, and the coefficients that they make (P1 19). Rows of the cells to the
+ * left (i) and right (j) of each face: indices f and f + 1 of one row keep gcc from vectorising. */
+KERNEL_PART void hll_coefficients(const struct model_state *s, struct window *r, double *u_roe)
+{
+	const double *restrict h_i = s->h + r->first, *restrict h_j = h_i + 1;
+	const double *restrict ubar_i = s->mean + r->first, *restrict ubar_j = ubar_i + 1;
 	double gc = s->par.gc;
 
-	for (int f = 0; f < s->grid.faces; f++) {
-		int i = f, j = f + 1; /* cells to the left and right */
-		double db = b[j] - b[i], dz = db + plane_jump(s, f), hbar = 0.5 * (h[i] + h[j]);
-		double root_i = sqrt(h[i]), root_j = sqrt(h[j]), roots = root_i + root_j;
-		double u_roe = roots > 0 ? (root_i * ubar[i] + root_j * ubar[j]) / roots : 0;
-		double c_roe = sqrt(gc * hbar);
-		double sl = fmin(ubar[i] - c[i], u_roe - c_roe), sr = fmax(ubar[j] + c[j], u_roe + c_roe);
-		double width = sr - sl, du = h[j] * ubar[j] - h[i] * ubar[i];
-		double held = dz + held_jump(s, f, dz + h[j] - h[i], u_roe, dt);
+	for (int f = 0; f < r->faces; f++) {
+		double root_i = __builtin_sqrt(h_i[f]), root_j = __builtin_sqrt(h_j[f]);
+		double roots = root_i + root_j;
+		double mean = (root_i * ubar_i[f] + root_j * ubar_j[f]) / roots, u = roots > 0 ? mean : 0;
+		double c = __builtin_sqrt(gc * (0.5 * (h_i[f] + h_j[f])));
+		double sl = smaller(ubar_i[f] - __builtin_sqrt(gc * h_i[f]), u - c);
+		double sr = larger(ubar_j[f] + __builtin_sqrt(gc * h_j[f]), u + c), width = sr - sl;
+		double alpha0 = (sr * fabs(sl) - sl * fabs(sr)) / width;
+		double alpha1 = (fabs(sr) - fabs(sl)) / width;
 
-		r.alpha0[f] = width > 0 ? (sr * fabs(sl) - sl * fabs(sr)) / width : 0;
-		r.alpha1[f] = width > 0 ? (fabs(sr) - fabs(sl)) / width : 0;
+		r->alpha0[f] = width > 0 ? alpha0 : 0;
+		r->alpha1[f] = width > 0 ? alpha1 : 0;
+		u_roe[f] = u;
+	}
+}
+
+/* Hydrostatic reconstruction, with the part of the slope that friction holds and without (P1 20, 21). */
+KERNEL_PART void reconstruct(const struct model_state *s, bool static_balance, double dt,
+	const double *restrict plane, const double *restrict u_roe, struct window *r)
+{
+	const struct dry_parameters par = s->par;
+	const double *restrict h_i = s->h + r->first, *restrict h_j = h_i + 1;
+	const double *restrict b_i = s->b + r->first, *restrict b_j = b_i + 1;
+	const double *restrict u_i = s->u + r->first, *restrict u_j = u_i + 1;
+	const double *restrict q = s->q + r->first;
+	double dx = s->grid.dx, n = s->layers;
+
+	for (int f = 0; f < r->faces; f++) {
+		double db = b_j[f] - b_i[f], dz = db + plane[f], hbar = 0.5 * (h_i[f] + h_j[f]);
+		double held = dz + held_jump(&par, static_balance, hbar, 0.5 * fabs(u_i[f] + u_j[f]), q[f],
+							   dz + h_j[f] - h_i[f], u_roe[f], dt, dx, n);
+		double left = positive(h_i[f] - positive(held)), right = positive(h_j[f] - positive(-held));
+
 		/* the plane stands outside the reconstruction, or it would cut gravity where h < tan dx */
-		r.source[f] = gc * hbar *
-					  (positive(h[j] - positive(-db)) - positive(h[i] - positive(db)) + (dz - db));
-		r.left[f] = positive(h[i] - positive(held));
-		r.right[f] = positive(h[j] - positive(-held));
-		r.rest_source[f] = gc * hbar * (r.right[f] - r.left[f]);
-		r.mass_flux[f] = 0.5 * (h[i] * ubar[i] + h[j] * ubar[j]) -
-						 0.5 * (r.alpha0[f] * (r.right[f] - r.left[f]) + r.alpha1[f] * du);
-		r.jump[f] = 0;
+		r->source[f] =
+			par.gc * hbar *
+			(positive(h_j[f] - positive(-db)) - positive(h_i[f] - positive(db)) + (dz - db));
+		r->rest_source[f] = par.gc * hbar * (right - left);
+		r->left[f] = left;
+		r->right[f] = right;
 	}
 }
 
-/* No cell gives away more than it holds: `share` is the part of its outflow that a cell can pay. */
-static void limit_outflow(const struct model_state *s, double dt, double *share)
+KERNEL_PART void mass_fluxes(const struct model_state *s, struct window *r)
 {
-	const double *flux = face_rows(s).mass_flux;
+	const double *restrict h = s->h + r->first, *restrict ubar = s->mean + r->first;
 
-	share[0] = share[s->grid.cells + 1] = 1;
-	for (int i = 1; i <= s->grid.cells; i++) {
-		double out = (positive(flux[i]) + positive(-flux[i - 1])) * dt / s->grid.dx;
+	for (int f = 0; f < r->faces; f++) {
+		double left = h[f] * ubar[f], right = h[f + 1] * ubar[f + 1];
 
-		share[i] = out > s->h[i] ? s->h[i] * (1 - 1e-12) / out : 1;
+		r->mass_flux[f] = 0.5 * (left + right) - 0.5 * (r->alpha0[f] * (r->right[f] - r->left[f]) +
+														   r->alpha1[f] * (right - left));
 	}
 }
 
-static double donor(const double *share, double flux, int f)
+/* No cell gives away more than it holds; what it gives is cut to the share that it can pay. */
+KERNEL_PART void limit_outflow(const struct model_state *s, double dt, struct window *r)
 {
-	return flux > 0 ? share[f] : share[f + 1];
+	const double *restrict h = s->h + r->first, *restrict flux = r->mass_flux;
+	double pays[ROW];
+
+	pays[0] = pays[r->faces] = 1; /* ghosts; or not looked at */
+	for (int j = 1; j < r->faces; j++) {
+		double out = (positive(flux[j]) + positive(-flux[j - 1])) * dt / s->grid.dx;
+
+		pays[j] = out > h[j] ? h[j] * (1 - 1e-12) / out : 1;
+	}
+	for (int f = 0; f < r->faces; f++) {
+		double left = pays[f], right = pays[f + 1];
+
+		r->share[f] = flux[f] > 0 ? left : right;
+	}
 }
 
-/* Advance one component (`v` is u_a or w_a) of one layer: `top`, `bottom` are the rows above and below
- * (their own row at the surface and the bed, where the exchange is zero anyway). */
-static void advance_layer(struct model_state *s, double *discharge, const double *v,
-	const double *bottom, const double *top, const double *u, const double *below,
-	const double *above, const double *source, const double *rest, const double *share, double dt)
+/* One component (`v` is u_a or w_a) of one layer at the faces of a chunk: the numerical flux, and
+ * (B + S)/2. `top`, `bottom` are the rows above and below (their own row at the surface and the bed,
+ * where the exchange is zero anyway), `above`, `below` the jumps of G there. */
+KERNEL_PART void layer_fluxes(const struct window *r, int at, int faces, double n, bool along,
+	const double *restrict h, const double *restrict u, const double *restrict v,
+	const double *restrict bottom, const double *restrict top, const double *restrict below,
+	const double *restrict above, double *restrict flux, double *restrict half)
 {
-	struct face_rows r = face_rows(s);
-	const double *h = s->h;
-	double n = s->layers, ratio = dt / s->grid.dx;
+	const double *restrict alpha0 = r->alpha0 + at, *restrict alpha1 = r->alpha1 + at;
+	const double *restrict left = r->left + at, *restrict right = r->right + at;
+	const double *restrict source = r->source + at, *restrict rest = r->rest_source + at;
+	const double *restrict share = r->share + at;
 
-	for (int f = 0; f < s->grid.faces; f++) {
+	for (int f = 0; f < faces; f++) {
 		int i = f, j = f + 1;
 		double fi = h[i] * u[i] * v[i], fj = h[j] * u[j] * v[j];
 		double v_up = 0.25 * (v[i] + v[j] + top[i] + top[j]);
 		double v_down = 0.25 * (v[i] + v[j] + bottom[i] + bottom[j]);
 		double exchange = -n * (v_up * above[f] - v_down * below[f]);
-		double diffusion = r.alpha0[f] * (r.right[f] * v[j] - r.left[f] * v[i]) +
-						   r.alpha1[f] * (fj - fi + exchange + rest[f]);
+		double diffusion = alpha0[f] * (right[f] * v[j] - left[f] * v[i]) +
+						   alpha1[f] * (fj - fi + exchange + (along ? rest[f] : 0));
 
-		r.flux[f] = 0.5 * (fi + fj - diffusion) * donor(share, r.mass_flux[f], f);
-		r.half[f] = 0.5 * (exchange + source[f]);
+		flux[f] = 0.5 * (fi + fj - diffusion) * share[f];
+		half[f] = 0.5 * (exchange + (along ? source[f] : 0));
 	}
-	for (int i = 1; i <= s->grid.cells; i++)
-		discharge[i] -= ratio * (r.flux[i] - r.flux[i - 1] + r.half[i - 1] + r.half[i]);
 }
 
-static void advance_layers(struct model_state *s, const double *ubar, const double *share,
-	double *above, const double *zero, double dt)
+/* G at the interface above a layer (P1 5), from that below. */
+KERNEL_PART void add_jump(int faces, double n, const double *restrict h, const double *restrict u,
+	const double *restrict ubar, const double *restrict below, double *restrict above)
 {
-	struct face_rows r = face_rows(s);
-	size_t stride = s->grid.stride;
-	const double *h = s->h;
-	int last = s->layers - 1;
+	for (int f = 0; f < faces; f++)
+		above[f] = below[f] + (h[f + 1] * (u[f + 1] - ubar[f + 1]) - h[f] * (u[f] - ubar[f])) / n;
+}
 
-	for (int a = 0; a <= last; a++) {
-		size_t row = (size_t)a * stride, up = a < last ? row + stride : row;
-		size_t down = a > 0 ? row - stride : row;
+KERNEL_PART void advance(int cells, double ratio, const double *restrict flux,
+	const double *restrict half, double *restrict discharge)
+{
+	for (int k = 0; k < cells; k++)
+		discharge[k] -= ratio * (flux[k + 1] - flux[k] + half[k] + half[k + 1]);
+}
+
+/* All layers of the chunk, from the bottom. */
+KERNEL_PART void advance_layers(
+	struct model_state *s, const struct window *r, struct chunk chunk, double dt)
+{
+	size_t stride = s->grid.stride, left = (size_t)chunk.first - 1; /* of the first face */
+	double jumps[2][ROW] = {0}, flux[ROW] = {0}, half[ROW] = {0};
+	double ratio = dt / s->grid.dx;
+	int cells = chunk.last - chunk.first + 1, faces = cells + 1, at = (int)left - r->first;
+	int top = s->layers - 1;
+	const double *h = s->h + left;
+	struct force force;
+
+	if (s->par.non_hydrostatic)
+		force_begin(s, chunk, &force);
+	for (int a = 0; a <= top; a++) {
+		size_t row = (size_t)a * stride + left;
+		size_t up = a < top ? row + stride : row, down = a > 0 ? row - stride : row;
 		const double *u = s->u + row, *w = s->w + row;
+		double *below = jumps[a % 2], *above = jumps[(a + 1) % 2];
 
-		/* G at the interface above (P1 5); exactly 0 at the surface */
-		for (int f = 0; f < s->grid.faces; f++)
-			above[f] =
-				a == last
-					? 0
-					: r.jump[f] + (h[f + 1] * (u[f + 1] - ubar[f + 1]) - h[f] * (u[f] - ubar[f])) /
-									  s->layers;
-		advance_layer(s, s->U + row, u, s->u + down, s->u + up, u, r.jump, above, r.source,
-			r.rest_source, share, dt);
-		if (s->par.non_hydrostatic)
-			advance_layer(
-				s, s->W + row, w, s->w + down, s->w + up, u, r.jump, above, zero, zero, share, dt);
-		for (int f = 0; f < s->grid.faces; f++)
-			r.jump[f] = above[f];
+		if (a < top)
+			add_jump(faces, s->layers, h, u, s->mean + left, below, above);
+		else
+			memset(above, 0, sizeof jumps[0]); /* exactly 0 at the surface */
+		layer_fluxes(r, at, faces, s->layers, true, h, u, u, s->u + down, s->u + up, below, above,
+			flux, half);
+		advance(cells, ratio, flux, half, s->U + row + 1);
+		if (!s->par.non_hydrostatic)
+			continue;
+		layer_fluxes(r, at, faces, s->layers, false, h, u, w, s->w + down, s->w + up, below, above,
+			flux, half);
+		advance(cells, ratio, flux, half, s->W + row + 1);
+		force_add_layer(s, &force, chunk, a, s->q, dt);
 	}
+}
+
+KERNEL_PART void advance_thickness(
+	struct model_state *s, const struct window *r, struct chunk chunk, double dt)
+{
+	const double *restrict h = s->h + chunk.first;
+	const double *restrict flux = r->mass_flux + (chunk.first - 1 - r->first);
+	const double *restrict share = r->share + (chunk.first - 1 - r->first);
+	double *restrict next = s->next + chunk.first, ratio = dt / s->grid.dx;
+	int cells = chunk.last - chunk.first + 1;
+
+	for (int k = 0; k < cells; k++)
+		next[k] = h[k] - ratio * (flux[k + 1] * share[k + 1] - flux[k] * share[k]);
+	if (chunk.first == 1)
+		s->end_flux[0] = flux[0] * share[0];
+	if (chunk.last == s->grid.cells)
+		s->end_flux[1] = flux[cells] * share[cells];
+}
+
+KERNEL static void transport(struct model_state *s, struct chunk chunk, double dt)
+{
+	int last = chunk.last < s->grid.cells ? chunk.last + 2 : chunk.last + 1;
+	double plane[ROW] = {0}, u_roe[ROW];
+	struct window r;
+
+	r.first = chunk.first > 1 ? chunk.first - 2 : 0;
+	r.faces = last - r.first;
+	plane_jumps(s, &r, plane);
+	hll_coefficients(s, &r, u_roe);
+	if (s->par.static_balance)
+		reconstruct(s, true, dt, plane, u_roe, &r);
+	else
+		reconstruct(s, false, dt, plane, u_roe, &r);
+	mass_fluxes(s, &r);
+	limit_outflow(s, dt, &r);
+	advance_layers(s, &r, chunk, dt);
+	advance_thickness(s, &r, chunk, dt);
 }
 
 void dry_transport(struct model_state *s, double dt)
 {
-	double *ubar = s->cell[0], *c = s->cell[1], *share = s->cell[2];
-	double *above = s->cell[3], *zero = s->cell[4]; /* longer than a row of faces */
-	double *flux = face_rows(s).mass_flux, ratio = dt / s->grid.dx;
-	size_t stride = s->grid.stride;
-
-	for (size_t i = 0; i < stride; i++) {
-		double sum = 0;
-
-		for (int a = 0; a < s->layers; a++)
-			sum += s->u[(size_t)a * stride + i];
-		ubar[i] = sum / s->layers;
-		c[i] = sqrt(s->par.gc * s->h[i]);
-		zero[i] = 0;
-	}
-	prepare_faces(s, ubar, c, dt);
-	limit_outflow(s, dt, share);
-	advance_layers(s, ubar, share, above, zero, dt);
-	if (s->par.non_hydrostatic)
-		dry_add_pressure_force(s, s->q, dt);
-	for (int f = 0; f < s->grid.faces; f++)
-		flux[f] *= donor(share, flux[f], f);
-	for (int i = 1; i <= s->grid.cells; i++)
-		s->h[i] -= ratio * (flux[i] - flux[i - 1]);
+	chunk_each(s, transport, dt);
+	memcpy(s->h + 1, s->next + 1, (size_t)s->grid.cells * sizeof *s->h);
 	grid_fill_even(&s->grid, s->h);
-	s->mass[1] += s->par.rho * dt * (flux[s->grid.cells] - flux[0]);
+	s->mass[1] += s->par.rho * dt * (s->end_flux[1] - s->end_flux[0]);
 }

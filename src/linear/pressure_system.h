@@ -1,34 +1,62 @@
 /* The linear system of the pressure step: block tridiagonal over the layers, each block tridiagonal
  * over the faces (P1 32). Unknown (a, f) is the fluctuation of the non-hydrostatic pressure over rho at
- * the interface below layer a = 0..layers-1 and face f = 0..faces-1, m2/s2. */
+ * the interface below layer a = 0..layers-1 and face f = 0..faces-1, m2/s2.
+ *
+ * The matrix has two forms. The symmetric operator is the sum over the cells of T^T T / h, and five
+ * numbers per cell say all of it (`cells`): methods that need no more are called matrix-free. The nine
+ * bands hold any operator, and are filled for the methods that ask for them. */
 #ifndef TALUS_PRESSURE_SYSTEM_H
 #define TALUS_PRESSURE_SYSTEM_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "talus/error.h"
 
+/* The symmetric operator. Cell i = 1..faces-1 lies between faces i - 1 and i; 0 and `faces` are ghosts
+ * and zero, as is a cell without grains. With l, r the unknowns at its faces below layer a and L, R
+ * those above, J = (l + L) - (r + R) and D = (L + R) - (l + r), the force of the cell and layer is
+ *   T^u = h/(2 dx) J + s D,  T^w = -N/2 D,  s = xi_a/2 = lean a + tilt      (P1 9b, 9c)
+ * and the cell adds to the product A q at its four corners the transposes of
+ *   g = stretch J + cross s D,  e = cross s J + (s^2 + N^2/4) inverse D:
+ * g - e at l, -g - e at r, g + e at L, e - g at R. */
+struct pressure_cells {
+	double *stretch;   /* [faces + 1], h/(4 dx^2), 1/m */
+	double *lean;      /* [faces + 1], m/m: d_x h / 2, per layer */
+	double *tilt;      /* [faces + 1], m/m: s of the lowest layer */
+	double *inverse;   /* [faces + 1], 1/h, 1/m */
+	double cross;      /* 1/(2 dx), 1/m */
+	double quarter_nn; /* N^2/4, 1 */
+	const bool *dry;   /* [faces], true: the unknown is 0 there; not owned */
+};
+
 struct pressure_system {
 	int layers, faces;
 
-	/* Matrix and right side, each [layers][faces]. Row (a, f) couples to faces f - 1, f, f + 1 of its
-	 * own layer and of the layers below and above; a coupling that would leave the system is 0. */
+	bool symmetric; /* `cells` hold the matrix */
+	struct pressure_cells cells;
+
+	/* The bands, each [layers][faces]; NULL in a matrix-free system. Row (a, f) couples to faces f - 1,
+	 * f, f + 1 of its own layer and of the layers below and above; a coupling that would leave the
+	 * system is 0. */
 	double *lower, *diagonal, *upper;
 	double *below_lower, *below_diagonal, *below_upper;
 	double *above_lower, *above_diagonal, *above_upper;
-	double *rhs;
 
+	double *rhs;    /* [layers][faces] */
 	double *weight; /* [faces], h dx / layers: of a face in the stopping norms (P1 4), m2 */
 
 	/* The solution, [layers + 2][faces + 2] with a border of zeros: no row needs a special case. */
 	double *x;
 	size_t x_stride; /* faces + 2 */
 
-	double *memory; /* one block for all of the above */
+	double *rows[5]; /* scratch, [faces + 1] */
+	double *memory;  /* one block for all of the above */
 };
 
-/* Allocate a system, all zeros. EX_SOFTWARE out of memory. */
-int pressure_system_init(struct pressure_system *system, int layers, int faces, struct error *err);
+/* Allocate a system, all zeros, with or without bands. EX_SOFTWARE out of memory. */
+int pressure_system_init(
+	struct pressure_system *system, int layers, int faces, bool bands, struct error *err);
 void pressure_system_clean(struct pressure_system *system);
 
 /* Row of layer a (from 0) of a [layers][faces] array. */
@@ -43,8 +71,11 @@ static inline double *pressure_system_x(const struct pressure_system *system, in
 	return system->x + (size_t)(a + 1) * system->x_stride + 1;
 }
 
-/* True relative residual |rhs - A x| / |rhs| in the Euclidean norm; 0 when the right side is 0. */
+/* True relative residual |rhs - A x| / |rhs| in the Euclidean norm, of 0 = A 0 it is 0. */
 double pressure_system_residual(const struct pressure_system *system);
+
+/* The same, with rhs - A x in `rows` [layers][faces]. */
+double pressure_system_residual_rows(const struct pressure_system *system, double *rows);
 
 /* The face of the largest residual, or of the first that is not a number: where a solver failed. */
 int pressure_system_worst_face(const struct pressure_system *system);

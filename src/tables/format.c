@@ -5,7 +5,7 @@
 
 #include "tables/format.h"
 
-/* Enough decimals for three significant digits. */
+/* Enough decimals for three significant digits; -1: better with a power of ten. */
 static int decimals_of(const struct table_column *column, double value)
 {
 	int whole;
@@ -14,8 +14,18 @@ static int decimals_of(const struct table_column *column, double value)
 		return column->decimals;
 	if (value == 0 || !isfinite(value))
 		return 2;
+	if (fabs(value) < 1e-3)
+		return -1;
 	whole = (int)floor(log10(fabs(value))) + 1;
-	return whole >= 3 ? 0 : whole < -6 ? 9 : 3 - whole;
+	return whole >= 3 ? 0 : 3 - whole;
+}
+
+static void add_number(double value, int decimals, struct text *out)
+{
+	if (decimals < 0)
+		text_addf(out, "%.1e", value);
+	else
+		text_addf(out, "%.*f", decimals, value);
 }
 
 void format_cell(const struct table_column *column, const struct table_cell *cell, struct text *out)
@@ -32,9 +42,11 @@ void format_cell(const struct table_column *column, const struct table_cell *cel
 		text_add(out, "missing");
 		break;
 	case CELL_NUMBER:
-		text_addf(out, "%.*f", decimals, cell->value);
-		if (column->spread)
-			text_addf(out, " \u00b1 %.*f", decimals, cell->spread);
+		add_number(cell->value, decimals, out);
+		if (column->spread) {
+			text_add(out, " \u00b1 ");
+			add_number(cell->spread, decimals, out);
+		}
 		break;
 	}
 }

@@ -94,6 +94,21 @@ static int speed_up(const struct sample *sample, double *out, struct error *err)
 	return 0;
 }
 
+static int residual(const struct sample *sample, double *out, struct error *err)
+{
+	return series_greatest(sample, "pressure_residual", out, err);
+}
+
+/* CPU time of the whole run per cell, layer and step, in ns. */
+static int ns_per_unknown(const struct sample *sample, double *out, struct error *err)
+{
+	double cells = sample->config->domain.cells, layers = sample->config->layers;
+
+	TRY(run_file_real(sample->file, "cpu_seconds", out, err));
+	*out *= 1e9 / (cells * layers * (double)run_file_summary(sample->file)->step);
+	return 0;
+}
+
 static int share_transport(const struct sample *sample, double *out, struct error *err)
 {
 	return series_share(sample, "cpu_transport", out, err);
@@ -204,6 +219,8 @@ static const struct metric metrics[] = {
 	{"iterations", "iterations", 0, PARTNER_NONE, false, iterations},
 	{"coarse-iterations", "coarse iterations", 0, PARTNER_NONE, false, coarse_iterations},
 	{"cpu-seconds", "CPU s", -1, PARTNER_NONE, false, cpu_seconds},
+	{"ns-per-unknown", "ns/cell/layer/step", -1, PARTNER_NONE, false, ns_per_unknown},
+	{"residual", "residual", -1, PARTNER_NONE, false, residual},
 	{"speed-up", "speed-up", 2, PARTNER_BASELINE, false, speed_up},
 	{"step-share-transport", "step 1 %", 1, PARTNER_NONE, false, share_transport},
 	{"step-share-friction", "step 2 %", 1, PARTNER_NONE, false, share_friction},

@@ -3,7 +3,8 @@
 source "$TALUS_ROOT/tests/cli/campaign-parts.bash"
 cat >study.yaml <<'END'
 base: collapse.yaml
-runs: [{pressure_solver.max_iterations: [1, 1000]}, {layers: 2}]
+set: {pressure_solver.method: block-gauss-seidel}
+runs: [{pressure_solver.max_iterations: [1, 20000]}, {layers: 2}]
 tables: [{name: t, rows: [pressure_solver.max_iterations, layers], metric: iterations}]
 END
 masked talus campaign run -j 1 study.yaml

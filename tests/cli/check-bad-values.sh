@@ -93,6 +93,10 @@ time: {wave_speed: fast}
 pressure: nonhydrostatic
 pressure: 3 Pa
 model: wet
+pressure_solver: {method: conjugate-gradients, operator: pointwise}
+pressure_solver: {operator: pointwise, method: block-direct}
+pressure_solver: {relaxation: 2}
+pressure_solver: {residual: 0}
 pressure_solver: {norm: l3}
 pressure_solver: {norm: max}
 pressure_solver: {operator: Symmetric}

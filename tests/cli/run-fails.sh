@@ -2,7 +2,8 @@
 # shellcheck source=tests/cli/small.bash
 source "$TALUS_ROOT/tests/cli/small.bash"
 write_small small.yaml
-fails=(--set pressure_solver.max_iterations=3 --set checkpoint.every_steps=1)
+fails=(--set pressure_solver.method=block-gauss-seidel
+	--set pressure_solver.criterion=increment --set pressure_solver.max_iterations=3 --set checkpoint.every_steps=1)
 talus run small.yaml "${fails[@]}"
 echo "$?"
 talus run small.yaml "${fails[@]}"

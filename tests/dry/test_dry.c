@@ -1,14 +1,17 @@
 /* The dry model as a whole: what it conserves, where it rests, and how it fails. */
+#include <dirent.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
 
+#include "dry/chunk.h"
 #include "dry/dry.h"
 
 static const char column[] = "slope: 22 deg\n"
@@ -98,6 +101,12 @@ static const struct {
 	CASE("erodible_bed_thickness=0", "layers=2", "domain.x_max=0.4", "domain.cells=60"),
 	CASE("domain.cells=7", "domain.right=wall"),
 	CASE("domain.cells=2", "domain.right=wall", "initial.front=0.5 m"),
+	CASE("pressure_solver.method=block-gauss-seidel", "pressure_solver.criterion=increment"),
+	CASE("pressure_solver.method=block-gauss-seidel-factored"),
+	CASE("pressure_solver.method=red-black-line-relaxation"),
+	CASE("pressure_solver.method=conjugate-gradients", "erodible_bed_thickness=0"),
+	CASE("pressure_solver.method=block-direct", "erodible_bed_thickness=0", "layers=9"),
+	CASE("pressure_solver.method=lapack-band", "layers=3"),
 };
 
 static void mass_and_outflow_are_constant_to_rounding(void **state)
@@ -203,7 +212,7 @@ static void a_bed_below_its_angle_of_repose_stays(void **state)
 
 static void the_projection_leaves_no_divergence(void **state)
 {
-	static const char *const tight[] = {"pressure_solver.tolerance=1e-12"};
+	static const char *const tight[] = {"pressure_solver.residual=1e-12"};
 	struct config config = read_config(tight, 1);
 	struct model_state *s = create(&config);
 	double before = 0, after = 0;
@@ -226,8 +235,8 @@ static void the_projection_leaves_no_divergence(void **state)
 	operator_symmetric.assemble(&input, system);
 	for (size_t k = 0; k < count; k++)
 		after = fmax(after, fabs(system->rhs[k]));
-	/* the tolerance on the increment times the size of the matrix entries, about 1e4 */
-	assert_true(after < 1e-6 * before);
+	/* the divergence that is left is the residual; the factor is for the norm and for rounding */
+	assert_true(after < 1e-11 * before);
 	dry_model.free(s);
 }
 
@@ -240,7 +249,8 @@ static double noise(unsigned *seed)
 /* y . A x must be the sum over the cells of (T x . T y)/h, with T as the force is really applied. */
 static void the_symmetric_operator_is_the_adjoint_of_the_force(void **state)
 {
-	struct config config = read_config(NULL, 0);
+	static const char *const bands[] = {"pressure_solver.method=block-gauss-seidel"};
+	struct config config = read_config(bands, 1);
 	struct model_state *s = create(&config);
 	struct pressure_system *system = &s->full.system;
 	size_t faces = (size_t)s->grid.faces, rows = (size_t)s->layers * s->grid.stride;
@@ -333,10 +343,10 @@ static void the_two_operators_agree_more_on_a_finer_grid(void **state)
 
 static void a_coarse_guess_changes_the_iterations_and_not_the_flow(void **state)
 {
-	static const char *const plain[] = {"layers=10", "pressure_solver.tolerance=1e-9"};
-	static const char *const guess[] = {
-		"layers=10", "pressure_solver.tolerance=1e-9", "n_ini_guess=5"};
-	struct config a = read_config(plain, 2), b = read_config(guess, 3);
+	static const char *const settings[] = {"layers=10", "pressure_solver.tolerance=1e-9",
+		"pressure_solver.method=block-gauss-seidel", "pressure_solver.criterion=increment",
+		"n_ini_guess=5"};
+	struct config a = read_config(settings, 4), b = read_config(settings, 5);
 	struct model_state *s = create(&a), *r = create(&b);
 	double iterations[2] = {0};
 	struct error err = {0};
@@ -355,6 +365,41 @@ static void a_coarse_guess_changes_the_iterations_and_not_the_flow(void **state)
 		assert_true(fabs(s->h[i] - r->h[i]) < 1e-6);
 	dry_model.free(s);
 	dry_model.free(r);
+}
+
+static void every_method_gives_the_same_flow(void **state)
+{
+	static const char *const methods[] = {"auto", "block-gauss-seidel",
+		"block-gauss-seidel-factored", "red-black-line-relaxation", "conjugate-gradients",
+		"block-direct", "lapack-band"};
+	struct model_state *reference = NULL;
+
+	(void)state;
+	for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+		char method[64];
+		const char *const settings[] = {method, "layers=6", "erodible_bed_thickness=0"};
+
+		(void)snprintf(method, sizeof method, "pressure_solver.method=%s", methods[i]);
+		struct config config = read_config(settings, 3);
+		struct model_state *s = create(&config);
+
+		for (int k = 0; k < 60; k++) {
+			struct error err = {0};
+
+			assert_int_equal(dry_model.step(s, 1e-3, &err), 0);
+			assert_true(observed(s, "pressure_residual") <= 1e-8);
+			assert_true(observed(s, "pressure_method") > 0);
+		}
+		if (!reference) {
+			reference = s;
+			continue;
+		}
+		/* a residual of 1e-8 in each of 60 steps that move the surface by 0.1 m in all */
+		for (int c = 1; c <= s->grid.cells; c++)
+			assert_true(fabs(s->h[c] - reference->h[c]) < 1e-7);
+		dry_model.free(s);
+	}
+	dry_model.free(reference);
 }
 
 static void two_runs_have_the_same_bits(void **state)
@@ -376,6 +421,115 @@ static void two_runs_have_the_same_bits(void **state)
 		dry_model.free(s);
 		dry_model.free(r);
 	}
+}
+
+/* More cells than one chunk has, in every kind of case that the kernels tell apart. */
+static const struct {
+	const char *settings[6];
+	int count;
+} wide[] = {
+	{{"domain.cells=700", "time.end=0.02", "pressure=hydrostatic", "layers=20"}, 4},
+	{{"domain.cells=700", "time.end=0.02", "pressure=hydrostatic", "layers=1"}, 4},
+	{{"domain.cells=701", "time.end=0.02", "pressure=hydrostatic", "erodible_bed_thickness=0",
+		 "domain.right=wall"},
+		5},
+	{{"domain.cells=600", "time.end=0.02", "scheme.friction_reconstruction=printed"}, 3},
+	{{"domain.cells=555", "time.end=0.02", "erodible_bed_thickness=0", "domain.left=outflow",
+		 "slope=0 deg", "domain.right=wall"},
+		6},
+	{{"domain.cells=600", "time.end=0.02", "layers=1"}, 3},
+};
+
+/* The flow at time.end must be that of `s`, bit for bit, in another state of the same config. */
+static void compare(struct model_state *s, struct model_state *r)
+{
+	struct array a[MODEL_ARRAYS_MAX], b[MODEL_ARRAYS_MAX];
+	size_t count = dry_model.arrays(s, a);
+
+	assert_int_equal(dry_model.arrays(r, b), count);
+	for (size_t k = 0; k < count; k++)
+		assert_memory_equal(a[k].data, b[k].data, a[k].extent[0] * a[k].extent[1] * sizeof(double));
+	assert_true(observed(s, "energy") == observed(r, "energy"));
+	assert_true(dry_model.time_step(s) == dry_model.time_step(r));
+}
+
+static int threads_of_this_process(void)
+{
+	DIR *tasks = opendir("/proc/self/task");
+	int count = 0;
+
+	assert_non_null(tasks);
+	while (readdir(tasks))
+		count++;
+	(void)closedir(tasks);
+	return count - 2; /* . and .. */
+}
+
+static void a_run_of_one_thread_makes_none(void **state)
+{
+	struct config config = read_config(wide[0].settings, wide[0].count);
+	struct model_state *s = create(&config);
+	int before = threads_of_this_process();
+
+	(void)state;
+	advance(s, 0.002);
+	assert_int_equal(threads_of_this_process(), before);
+	s->threads = 3;
+	advance(s, 0.002);
+	assert_true(threads_of_this_process() > before);
+	dry_model.free(s);
+}
+
+static void threads_and_chunks_do_not_change_the_bits(void **state)
+{
+	static const int threads[] = {2, 3, 1, 1, 2}, chunk_cells[] = {0, 0, 8, 40, 16};
+
+	(void)state;
+	for (size_t i = 0; i < sizeof wide / sizeof *wide; i++) {
+		struct config config = read_config(wide[i].settings, wide[i].count);
+		struct model_state *s = create(&config);
+
+		advance(s, config.time.end);
+		for (size_t k = 0; k < sizeof threads / sizeof *threads; k++) {
+			struct model_state *r;
+
+			config.threads = threads[k];
+			r = create(&config);
+			assert_int_equal(r->threads, threads[k]);
+			if (chunk_cells[k])
+				r->chunk_cells = chunk_cells[k];
+			advance(r, config.time.end);
+			compare(s, r);
+			dry_model.free(r);
+		}
+		dry_model.free(s);
+	}
+}
+
+static int visits[3000];
+
+static void visit(struct model_state *s, struct chunk chunk, double dt)
+{
+	assert_true(dt == 0.5);
+	assert_in_range(chunk.last - chunk.first + 1, 1, s->chunk_cells);
+	for (int i = chunk.first; i <= chunk.last; i++)
+		visits[i]++;
+}
+
+static void chunks_hold_every_cell_once(void **state)
+{
+	(void)state;
+	for (int layers = 1; layers <= 512; layers = 2 * layers + 1)
+		for (int cells = 2; cells < 2900; cells += 1 + cells / 100) {
+			struct model_state s = {
+				.grid.cells = cells, .threads = 1, .chunk_cells = chunk_cells(layers)};
+
+			assert_in_range(s.chunk_cells, LANES, CHUNK_CELLS);
+			memset(visits, 0, sizeof visits);
+			chunk_each(&s, visit, 0.5);
+			for (int i = 0; i < 3000; i++)
+				assert_int_equal(visits[i], i >= 1 && i <= cells);
+		}
 }
 
 /* Copying the arrays that a checkpoint holds into a fresh state goes on with the same bits. */
@@ -406,8 +560,9 @@ static void the_arrays_are_the_whole_state(void **state)
 
 static void a_solver_that_does_not_converge_ends_the_step(void **state)
 {
-	static const char *const few[] = {"pressure_solver.max_iterations=2"};
-	struct config config = read_config(few, 1);
+	static const char *const few[] = {
+		"pressure_solver.max_iterations=2", "pressure_solver.method=block-gauss-seidel"};
+	struct config config = read_config(few, 2);
 	struct model_state *s = create(&config);
 	struct error err = {0};
 
@@ -416,7 +571,7 @@ static void a_solver_that_does_not_converge_ends_the_step(void **state)
 	assert_int_equal(err.code, EX_FAILED);
 	assert_non_null(strstr(err.text,
 		"the pressure solver (block-gauss-seidel, 4 layers) did not converge at x = 0 m: "
-		"stopped after 2 iterations, tolerance 1e-06 m2/s2, relative residual "));
+		"stopped after 2 iterations, relative residual "));
 	dry_model.free(s);
 }
 
@@ -428,7 +583,8 @@ static void numbers_that_are_no_flow_end_the_step_and_say_where(void **state)
 	struct error err = {0};
 
 	(void)state;
-	s->u[s->grid.stride + 31] = s->U[s->grid.stride + 31] = NAN;
+	s->U[s->grid.stride + 31] = NAN;
+	dry_model.restored(s);
 	assert_true(isnan(dry_model.time_step(s)));
 	assert_int_equal(dry_model.step(s, 1e-3, &err), -1);
 	assert_int_equal(err.code, EX_FAILED);
@@ -502,6 +658,9 @@ static void a_step_allocates_nothing(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(a_run_of_one_thread_makes_none), /* before any other makes some */
+		cmocka_unit_test(chunks_hold_every_cell_once),
+		cmocka_unit_test(threads_and_chunks_do_not_change_the_bits),
 		cmocka_unit_test(mass_and_outflow_are_constant_to_rounding),
 		cmocka_unit_test(mass_leaves_through_an_outflow_only),
 		cmocka_unit_test(the_energy_never_rises),
@@ -511,6 +670,7 @@ int main(void)
 		cmocka_unit_test(the_symmetric_operator_is_the_adjoint_of_the_force),
 		cmocka_unit_test(the_two_operators_agree_more_on_a_finer_grid),
 		cmocka_unit_test(a_coarse_guess_changes_the_iterations_and_not_the_flow),
+		cmocka_unit_test(every_method_gives_the_same_flow),
 		cmocka_unit_test(two_runs_have_the_same_bits),
 		cmocka_unit_test(the_arrays_are_the_whole_state),
 		cmocka_unit_test(a_solver_that_does_not_converge_ends_the_step),

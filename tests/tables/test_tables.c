@@ -99,6 +99,7 @@ static void add_content(struct image *image, const struct content *content)
 {
 	static const double time[] = {0, 0.15, 0.3}, profile_time[] = {0.1, 0.3}, x[] = {0, 1, 2, 3};
 	static const double front[] = {0, 0.5, 1.25}, cpu[] = {0, 1, 2};
+	static const double residual[] = {0, 3.4e-9, 1.2e-9};
 
 	image_real(image, "cpu_seconds", content->cpu_seconds);
 	image_text(image, "talus_version", "0.1.0");
@@ -112,6 +113,7 @@ static void add_content(struct image *image, const struct content *content)
 	add_series(image, "pressure_iterations", content->iterations);
 	add_series(image, "front_position", front);
 	add_series(image, "cpu_pressure", cpu);
+	add_series(image, "pressure_residual", residual);
 	image_dataset(image, &(struct image_data){.path = "h",
 							 .units = "m",
 							 .long_name = "h",
@@ -250,7 +252,8 @@ static void a_metric_is_what_its_run_file_says(void **state)
 	struct experiment e = read_experiment(
 		"title: All\n"
 		"base: base.yaml\n"
-		"tables: [{name: t, rows: slope, metric: [steps, runout, step-share-pressure]}]\n");
+		"tables: [{name: t, rows: slope, metric: [steps, runout, step-share-pressure,\n"
+		"  ns-per-unknown, residual]}]\n");
 	struct content content = complete(6, 9);
 
 	(void)state;
@@ -258,9 +261,9 @@ static void a_metric_is_what_its_run_file_says(void **state)
 	assert_table(&e, "text",
 		"t: All\n"
 		"\n"
-		"slope                   steps  runout m  step 3 %\n"
-		"-------------------------------------------------\n"
-		"0.3839724354387525 rad      7     1.250      50.0\n" NOTES);
+		"slope                   steps  runout m  step 3 %  ns/cell/layer/step  residual\n"
+		"-------------------------------------------------------------------------------\n"
+		"0.3839724354387525 rad      7     1.250      50.0            53571429   3.4e-09\n" NOTES);
 	experiment_clean(&e);
 }
 

@@ -1,0 +1,131 @@
+/* The choice among the methods, step by step, by what the last steps cost: conjugate gradients as long
+ * as they take few iterations, the direct method where they would take too many (near the face of a dam
+ * at the start). Cost is counted in iterations and sizes, never by a clock, so that the choice is the
+ * same on every machine, and what one step leaves for the next is part of the exact state. */
+#include <stdlib.h>
+
+#include "linear/fast_diagonal.h"
+#include "linear/pressure_solver.h"
+
+/* The direct method keeps a dense matrix per column: not beyond this much memory, and not for more layers
+ * than conjugate gradients are always cheaper for. */
+#define DIRECT_BYTES (256.0 * 1024 * 1024)
+#define DIRECT_LAYERS 40
+
+enum {
+	SHORTEST_HOLD = 4,
+	LONGEST_HOLD = 64
+}; /* steps of the direct method before the next trial */
+
+enum { HOLD, LEFT, KEPT }; /* what is kept: the length of a hold, and how much of it is left */
+
+struct memory {
+	void *gradients, *direct; /* `direct` is NULL where it would be too large */
+	int limit;                /* iterations that cost as much as the direct method */
+	int method;               /* chosen last, enum method_kind */
+	double kept[KEPT];
+};
+
+/* Iterations of conjugate gradients that take the time of one direct solution, in nanoseconds per unknown
+ * as `make bench` shows them: an iteration goes over padded columns of layers and of modes and
+ * multiplies with half a square of modes; the direct method inverts a square of layers. */
+static int affordable(int layers)
+{
+	int column = (layers / LANES + 1) * LANES;
+	int modes = 2 * (((layers + 1) / 2 + MODES - 1) / MODES) * MODES;
+	double n = layers, iteration = (0.53 * column + 0.55 * modes) / n + 0.03 * n;
+	double direct = 11.5 + 0.3 * n + 0.025 * n * n;
+
+	return (int)(direct / iteration);
+}
+
+static void destroy(void *memory)
+{
+	struct memory *m = memory;
+
+	if (!m)
+		return;
+	conjugate_gradients.free(m->gradients);
+	block_direct.free(m->direct);
+	free(m);
+}
+
+static int create(
+	int layers, int faces, const struct pressure_options *options, void **out, struct error *err)
+{
+	struct columns columns = columns_make(layers, faces);
+	struct memory *m = calloc(1, sizeof *m);
+
+	if (!m)
+		return error_memory(err, sizeof *m);
+	m->limit = affordable(layers);
+	m->method = METHOD_CONJUGATE_GRADIENTS;
+	m->kept[HOLD] = SHORTEST_HOLD;
+	if (conjugate_gradients.create(layers, faces, options, &m->gradients, err) != 0 ||
+		(layers <= DIRECT_LAYERS && 8.0 * layers * (double)columns.stride * faces <= DIRECT_BYTES &&
+			block_direct.create(layers, faces, options, &m->direct, err) != 0)) {
+		destroy(m);
+		return -1;
+	}
+	*out = m;
+	return 0;
+}
+
+/* Conjugate gradients, given up where the direct method costs less. */
+static int try_gradients(
+	struct memory *m, struct pressure_system *system, const struct stopping_rule *rule)
+{
+	struct stopping_rule trial = *rule;
+	int done;
+
+	m->method = METHOD_CONJUGATE_GRADIENTS;
+	if (m->direct && trial.max_iterations > m->limit)
+		trial.max_iterations = m->limit;
+	done = conjugate_gradients.solve(system, &trial, m->gradients);
+	if (done >= 0)
+		m->kept[HOLD] = SHORTEST_HOLD;
+	else if (m->direct)
+		m->kept[LEFT] = m->kept[HOLD];
+	return done;
+}
+
+static int solve(struct pressure_system *system, const struct stopping_rule *rule, void *memory)
+{
+	struct memory *m = memory;
+	int tried = 0, done;
+
+	if (m->kept[LEFT] == 0) {
+		tried = try_gradients(m, system, rule);
+		if (tried >= 0 || m->kept[LEFT] == 0)
+			return tried;
+		m->kept[HOLD] = m->kept[HOLD] < LONGEST_HOLD ? 2 * m->kept[HOLD] : LONGEST_HOLD;
+	} else {
+		m->kept[LEFT]--;
+	}
+	m->method = METHOD_BLOCK_DIRECT;
+	done = block_direct.solve(system, rule, m->direct);
+	return done < 0 ? done + tried : done - tried;
+}
+
+static double *kept(void *memory, size_t *count)
+{
+	*count = KEPT;
+	return ((struct memory *)memory)->kept;
+}
+
+static int chosen(const void *memory)
+{
+	return ((const struct memory *)memory)->method;
+}
+
+const struct pressure_solver automatic = {
+	.name = "auto",
+	.method = METHOD_AUTO,
+	.matrix_free = true,
+	.symmetric_only = true,
+	.create = create,
+	.solve = solve,
+	.kept = kept,
+	.chosen = chosen,
+	.free = destroy,
+};

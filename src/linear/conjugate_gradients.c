@@ -1,0 +1,344 @@
+/* Conjugate gradients on the symmetric operator, preconditioned by the operator without its xi terms,
+ * which fast diagonalisation solves exactly. An iteration is three passes over the columns: new residual
+ * and its modes; tridiagonal systems of the modes; new direction and its product with the matrix. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "linear/fast_diagonal.h"
+#include "linear/pressure_solver.h"
+
+enum { BATCH = 4 }; /* groups whose columns are in hand at once */
+
+struct memory {
+	struct fast_diagonal fast;
+	struct columns columns;
+	int threads;
+	double *x, *residual, *direction; /* columns, in units of |b| */
+	double
+		*product;  /* columns: A times the direction, and in between the preconditioned residual */
+	double *sums;  /* [2][groups or blocks, whichever is more] */
+	double *terms; /* [threads][4][stride] */
+	float *modes;  /* columns of modes */
+	double *block;
+	double scale;       /* |b| */
+	double alpha, beta; /* of the pass at hand */
+};
+
+/* What one thread does in a pass. */
+struct part {
+	struct memory *m;
+	const struct pressure_system *system;
+	int first, last;
+};
+
+static size_t layout(struct memory *m, double *block)
+{
+	size_t all = columns_count(&m->columns);
+	int groups = m->columns.groups, blocks = fast_diagonal_blocks(&m->fast);
+	size_t sums = (size_t)(groups > blocks ? groups : blocks);
+	struct {
+		double **part;
+		size_t count;
+	} const parts[] = {{&m->x, all}, {&m->residual, all}, {&m->direction, all}, {&m->product, all},
+		{&m->sums, sums}};
+	size_t at = 0;
+
+	for (size_t i = 0; i < sizeof parts / sizeof *parts; at += parts[i++].count)
+		*parts[i].part = block ? block + at : NULL;
+	return at;
+}
+
+static void destroy(void *memory)
+{
+	struct memory *m = memory;
+
+	if (!m)
+		return;
+	fast_diagonal_clean(&m->fast);
+	free(m->block);
+	free(m->modes);
+	free(m);
+}
+
+static int create(
+	int layers, int faces, const struct pressure_options *options, void **out, struct error *err)
+{
+	struct memory *m = calloc(1, sizeof *m);
+	size_t count;
+
+	if (!m)
+		return error_memory(err, sizeof *m);
+	m->columns = columns_make(layers, faces);
+	m->threads = options->threads;
+	if (fast_diagonal_init(&m->fast, layers, faces, err) != 0) {
+		destroy(m);
+		return -1;
+	}
+	count = layout(m, NULL);
+	m->block = calloc(count, sizeof *m->block);
+	m->modes = calloc(fast_diagonal_count(&m->fast), sizeof *m->modes);
+	if (!m->block || !m->modes) {
+		destroy(m);
+		return error_memory(err, count * sizeof *m->block);
+	}
+	(void)layout(m, m->block);
+	*out = m;
+	return 0;
+}
+
+/* Do a pass over `count` groups or blocks, shared among the threads. */
+static void pass(struct memory *m, const struct pressure_system *system, int count,
+	void (*work)(struct part *part))
+{
+	int threads = m->threads < count ? m->threads : count;
+
+#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
+	for (int t = 0; t < threads; t++) {
+		struct part part = {
+			m, system, (int)((long)count * t / threads), (int)((long)count * (t + 1) / threads)};
+
+		work(&part);
+	}
+}
+
+static double total(const double *sums, int count)
+{
+	double sum = 0;
+
+	for (int i = 0; i < count; i++)
+		sum += sums[i];
+	return sum;
+}
+
+/* Where the columns of a group begin, and how many values they are. */
+static size_t group_at(const struct memory *m, int group)
+{
+	return (size_t)group * LANES * m->columns.stride;
+}
+
+/* Right side into the residual; sums: its square. */
+KERNEL static void take_right_side(struct part *part)
+{
+	struct memory *m = part->m;
+
+	columns_from_rows(&m->columns, part->system->rhs, (size_t)part->system->faces, m->residual,
+		part->first, part->last);
+	for (int g = part->first; g < part->last; g++) {
+		const double *r = m->residual + group_at(m, g);
+
+		m->sums[g] = kernel_dot(r, r, LANES * (int)m->columns.stride);
+	}
+}
+
+static void take_start(struct part *part)
+{
+	columns_from_rows(&part->m->columns, pressure_system_x(part->system, 0), part->system->x_stride,
+		part->m->x, part->first, part->last);
+}
+
+static void multiply_start(struct part *part)
+{
+	columns_apply(&part->m->columns, part->system, part->m->x, part->m->product, part->m->sums,
+		part->first, part->last);
+}
+
+/* r -= alpha A p; sums: r r. Then the modes of r. */
+KERNEL static void take_step(struct part *part)
+{
+	struct memory *m = part->m;
+	double alpha = m->alpha;
+
+	for (int g = part->first; g < part->last; g++) {
+		size_t at = group_at(m, g);
+		v8 sum = {0};
+
+		for (size_t i = at; i < at + LANES * m->columns.stride; i += LANES) {
+			v8 r = v8_load(m->residual + i) - alpha * v8_load(m->product + i);
+
+			v8_store(m->residual + i, r);
+			sum += r * r;
+		}
+		m->sums[g] = v8_sum(sum);
+		fast_diagonal_to_modes(&m->fast, m->residual, m->modes, g, g + 1);
+	}
+}
+
+static void factor_modes(struct part *part)
+{
+	fast_diagonal_factor(&part->m->fast, part->first, part->last);
+}
+
+static void solve_modes(struct part *part)
+{
+	fast_diagonal_solve(&part->m->fast, part->m->modes, part->m->sums, part->first, part->last);
+}
+
+static void multiply(struct part *part, int first, int last)
+{
+	columns_apply(&part->m->columns, part->system, part->m->direction, part->m->product,
+		part->m->sums, first, last);
+}
+
+/* x += alpha p, with the alpha of the last step, and p = z + beta p in groups [first, last). */
+KERNEL static void turn(struct memory *m, int first, int last)
+{
+	double alpha = m->alpha, beta = m->beta;
+
+	fast_diagonal_to_layers(&m->fast, m->modes, m->product, first, last);
+	for (size_t i = group_at(m, first); i < group_at(m, last); i += LANES) {
+		v8 p = v8_load(m->direction + i);
+
+		v8_store(m->x + i, v8_load(m->x + i) + alpha * p);
+		v8_store(m->direction + i, v8_load(m->product + i) + beta * p);
+	}
+}
+
+static int least(int a, int b)
+{
+	return a < b ? a : b;
+}
+
+/* The new direction batch by batch, and its product with the matrix one batch behind, while both are in
+ * the first-level cache. The product of the first and the last batch waits for the neighbours of the
+ * part, where there are any. */
+static void turn_and_multiply(struct part *part)
+{
+	int groups = part->m->columns.groups, done = part->first > 0 ? part->first + BATCH : 0;
+
+	for (int g = part->first; g < part->last; g += BATCH) {
+		int end = least(g + BATCH, part->last), known = end == groups ? end : g;
+
+		turn(part->m, g, end);
+		if (known > done) {
+			multiply(part, done, known);
+			done = known;
+		}
+	}
+}
+
+/* What turn_and_multiply left out. */
+static void multiply_edges(struct part *part)
+{
+	int head = least(part->first + BATCH, part->last);
+	int tail = part->first + (part->last - part->first - 1) / BATCH * BATCH; /* the last batch */
+
+	if (part->first > 0)
+		multiply(part, part->first, head);
+	if (part->last < part->m->columns.groups && (part->first == 0 || tail > part->first))
+		multiply(part, tail, part->last);
+}
+
+/* The last step of x, and back to units of the system. */
+KERNEL static void finish(struct part *part)
+{
+	struct memory *m = part->m;
+	double scale = m->scale > 0 ? m->scale : 1, alpha = m->alpha;
+
+	for (size_t i = group_at(m, part->first); i < group_at(m, part->last); i += LANES)
+		v8_store(m->x + i, scale * (v8_load(m->x + i) + alpha * v8_load(m->direction + i)));
+	columns_to_rows(&m->columns, m->x, pressure_system_x(part->system, 0), part->system->x_stride,
+		part->first, part->last);
+}
+
+static bool starts_at_zero(const struct pressure_system *system)
+{
+	for (int a = 0; a < system->layers; a++)
+		for (int f = 0; f < system->faces; f++)
+			if (pressure_system_x(system, a)[f] != 0)
+				return false;
+	return true;
+}
+
+/* x and r in units of |b|, so that single precision has them in its range. */
+static void rescale(struct memory *m, double factor)
+{
+	size_t all = columns_count(&m->columns);
+
+	for (size_t i = 0; i < all; i++) {
+		m->residual[i] *= factor;
+		m->x[i] *= factor;
+	}
+}
+
+/* Residual and direction for the start at hand. */
+static void begin(struct memory *m, const struct pressure_system *system)
+{
+	int groups = m->columns.groups;
+	size_t all = columns_count(&m->columns);
+
+	fast_diagonal_prepare(&m->fast, system);
+	pass(m, system, fast_diagonal_blocks(&m->fast), factor_modes);
+	pass(m, system, groups, take_right_side);
+	m->scale = sqrt(total(m->sums, groups));
+	m->alpha = 0;
+	for (size_t i = 0; i < all; i++)
+		m->x[i] = m->direction[i] = m->product[i] = 0;
+	if (!starts_at_zero(system)) {
+		pass(m, system, groups, take_start);
+		pass(m, system, groups, multiply_start);
+		for (size_t i = 0; i < all; i++)
+			m->residual[i] -= m->product[i];
+	}
+	if (m->scale > 0)
+		rescale(m, 1 / m->scale);
+}
+
+/* alpha p in the norm of the rule. */
+static double increment(const struct memory *m, const struct pressure_system *system, int norm)
+{
+	double sum = 0;
+
+	for (int f = 0; f < system->faces; f++)
+		for (int a = 0; a < system->layers; a++) {
+			double change =
+				fabs(m->alpha * m->scale * m->direction[(size_t)f * m->columns.stride + (size_t)a]);
+
+			if (norm == NORM_LINF)
+				sum = change > sum || isnan(change) ? change : sum;
+			else
+				sum += system->weight[f] * (norm == NORM_L2 ? change * change : change);
+		}
+	return norm == NORM_L2 ? sqrt(sum) : sum;
+}
+
+static int solve(struct pressure_system *system, const struct stopping_rule *rule, void *memory)
+{
+	struct memory *m = memory;
+	int groups = m->columns.groups, blocks = fast_diagonal_blocks(&m->fast), done = 0;
+	double limit = rule->residual * rule->residual, last = 0;
+	bool stop = false;
+
+	begin(m, system);
+	for (;; done++) {
+		double square, energy;
+
+		pass(m, system, groups, take_step);
+		square = total(m->sums, groups);
+		stop = stop || (rule->criterion == CRITERION_RESIDUAL && square <= limit);
+		if (stop || square == 0)
+			break;
+		if (isnan(square) || done == rule->max_iterations)
+			return done ? -done : -1;
+		pass(m, system, blocks, solve_modes);
+		energy = total(m->sums, blocks);
+		m->beta = last > 0 ? energy / last : 0;
+		last = energy;
+		pass(m, system, groups, turn_and_multiply);
+		pass(m, system, groups, multiply_edges);
+		m->alpha = energy / total(m->sums, groups);
+		stop = rule->criterion == CRITERION_INCREMENT &&
+			   increment(m, system, rule->norm) < rule->tolerance;
+	}
+	pass(m, system, groups, finish);
+	return done;
+}
+
+const struct pressure_solver conjugate_gradients = {
+	.name = "conjugate-gradients",
+	.method = METHOD_CONJUGATE_GRADIENTS,
+	.matrix_free = true,
+	.symmetric_only = true,
+	.create = create,
+	.solve = solve,
+	.free = destroy,
+};

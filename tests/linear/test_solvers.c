@@ -1,0 +1,757 @@
+/* Every method on every kind of system that a flow makes, against the exact answer. A system comes from
+ * the operators of the dry model; its right side is made for a known solution, in long double by a
+ * product of this file. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "config/config_table.h"
+#include "dry/dry.h"
+#include "linear/columns.h"
+
+static double noise(unsigned *seed) /* -1 to 1 */
+{
+	*seed = *seed * 1664525u + 1013904223u;
+	return (double)(*seed >> 8) / (1 << 23) - 1;
+}
+
+/* Thickness and bed of `cells` cells, m. */
+static void flat(int cells, double *h, double *b)
+{
+	for (int i = 0; i < cells; i++) {
+		h[i] = 0.1;
+		b[i] = 0;
+	}
+}
+
+static void rough(int cells, double *h, double *b)
+{
+	unsigned seed = 7;
+
+	for (int i = 0; i < cells; i++) {
+		h[i] = 0.05 + 0.04 * noise(&seed);
+		b[i] = 0.02 * noise(&seed);
+	}
+}
+
+static void wavy(int cells, double *h, double *b)
+{
+	for (int i = 0; i < cells; i++) {
+		h[i] = 0.05 + 0.005 * sin(0.4 * i);
+		b[i] = 0.005 * cos(0.3 * i);
+	}
+}
+
+static void column_face(int cells, double *h, double *b)
+{
+	for (int i = 0; i < cells; i++) {
+		h[i] = i < cells / 2 ? 0.14182 : 0.00182;
+		b[i] = 0;
+	}
+}
+
+static void dry_middle(int cells, double *h, double *b)
+{
+	rough(cells, h, b);
+	for (int i = cells / 3; i <= cells / 2; i++)
+		h[i] = i % 2 ? 0 : 1e-12;
+}
+
+static void dry_ends(int cells, double *h, double *b)
+{
+	rough(cells, h, b);
+	h[0] = h[cells - 1] = h[cells - 2] = 0;
+}
+
+static void nearly_dry(int cells, double *h, double *b)
+{
+	unsigned seed = 3;
+
+	rough(cells, h, b);
+	for (int i = 0; i < cells; i += 2)
+		h[i] = 1e-5 * (1.2 + noise(&seed));
+}
+
+static void all_dry(int cells, double *h, double *b)
+{
+	flat(cells, h, b);
+	memset(h, 0, (size_t)cells * sizeof *h);
+}
+
+static const struct problem {
+	const char *name;
+	int layers, cells;
+	bool left_wall, right_wall;
+	void (*shape)(int cells, double *h, double *b);
+	int operator_; /* enum operator_kind */
+	bool wild;     /* an iteration need not converge, but has to say so */
+} problems[] = {
+	{"one unknown", 1, 1, true, false, flat, OPERATOR_SYMMETRIC, false},
+	{"one cell between walls", 3, 1, true, true, flat, OPERATOR_SYMMETRIC, false},
+	{"one layer", 1, 33, true, true, rough, OPERATOR_SYMMETRIC, false},
+	{"two layers", 2, 8, true, false, rough, OPERATOR_SYMMETRIC, false},
+	{"flat, open ends", 5, 16, false, false, flat, OPERATOR_SYMMETRIC, false},
+	{"flat, walls", 5, 17, true, true, flat, OPERATOR_SYMMETRIC, false},
+	{"rough bed", 8, 15, true, false, rough, OPERATOR_SYMMETRIC, false},
+	{"rough bed, many layers", 17, 20, true, true, rough, OPERATOR_SYMMETRIC, false},
+	{"face of a column", 9, 24, true, false, column_face, OPERATOR_SYMMETRIC, false},
+	{"face of a column, layers over a vector", 16, 23, true, true, column_face, OPERATOR_SYMMETRIC,
+		false},
+	{"dry faces in the middle", 7, 22, true, true, dry_middle, OPERATOR_SYMMETRIC, false},
+	{"dry ends", 4, 25, true, true, dry_ends, OPERATOR_SYMMETRIC, false},
+	{"nearly dry cells", 3, 18, true, true, nearly_dry, OPERATOR_SYMMETRIC, false},
+	{"all dry", 3, 9, true, true, all_dry, OPERATOR_SYMMETRIC, false},
+	{"pointwise, flat", 5, 16, true, false, flat, OPERATOR_POINTWISE, false},
+	{"pointwise, slopes", 8, 24, true, true, wavy, OPERATOR_POINTWISE, false},
+	{"pointwise, rough bed", 8, 24, true, true, rough, OPERATOR_POINTWISE, true},
+	{"pointwise, face of a column", 10, 23, true, false, column_face, OPERATOR_POINTWISE, false},
+	{"pointwise, dry ends", 3, 12, true, true, dry_ends, OPERATOR_POINTWISE, false},
+};
+
+enum { PROBLEMS = sizeof problems / sizeof *problems, CELLS_MAX = 40, LAYERS_MAX = 20 };
+
+static const struct pressure_operator *operator_of(const struct problem *problem)
+{
+	return problem->operator_ == OPERATOR_SYMMETRIC ? &operator_symmetric : &operator_pointwise;
+}
+
+/* A problem as a system. */
+struct setup {
+	struct grid grid;
+	double h[CELLS_MAX + 2], b[CELLS_MAX + 2];
+	bool dry[CELLS_MAX + 1];
+	double *velocity; /* zeros */
+	struct pressure_system system;
+};
+
+static void assemble(struct setup *setup, const struct problem *problem, bool bands)
+{
+	static double rows[6][CELLS_MAX + 2];
+	double *const scratch[] = {rows[0], rows[1], rows[2], rows[3], rows[4], rows[5]};
+	struct grid *grid = &setup->grid;
+	struct error err = {0};
+
+	assert_int_equal(
+		pressure_system_init(&setup->system, problem->layers, grid->faces, bands, &err), 0);
+	setup->system.symmetric = problem->operator_ == OPERATOR_SYMMETRIC;
+	setup->system.cells.dry = setup->dry;
+	setup->velocity = calloc((size_t)problem->layers * grid->stride, sizeof(double));
+	assert_non_null(setup->velocity);
+	operator_of(problem)->assemble(
+		&(struct pressure_input){grid, problem->layers, 1, setup->h, setup->b, setup->velocity,
+			setup->velocity, setup->dry, scratch},
+		&setup->system);
+	for (int f = 0; f < grid->faces; f++)
+		setup->system.weight[f] =
+			0.5 * (setup->h[f] + setup->h[f + 1]) * grid->dx / problem->layers;
+}
+
+static void setup_init(struct setup *setup, const struct problem *problem, bool bands)
+{
+	struct grid *grid = &setup->grid;
+
+	*setup = (struct setup){.grid = {.cells = problem->cells,
+								.faces = problem->cells + 1,
+								.stride = (size_t)problem->cells + 2,
+								.dx = 0.005,
+								.left_wall = problem->left_wall,
+								.right_wall = problem->right_wall}};
+	problem->shape(grid->cells, setup->h + 1, setup->b + 1);
+	grid_fill_even(grid, setup->h);
+	grid_fill_even(grid, setup->b);
+	for (int f = 0; f < grid->faces; f++)
+		setup->dry[f] = setup->h[f] < DRY_NO_PRESSURE || setup->h[f + 1] < DRY_NO_PRESSURE;
+	if (problem->operator_ == OPERATOR_SYMMETRIC) {
+		setup->dry[0] |= !grid->left_wall;
+		setup->dry[grid->cells] |= !grid->right_wall;
+	}
+	assemble(setup, problem, bands);
+}
+
+static void setup_clean(struct setup *setup)
+{
+	pressure_system_clean(&setup->system);
+	free(setup->velocity);
+}
+
+static int count_of(const struct pressure_system *system)
+{
+	return system->layers * system->faces;
+}
+
+/* Entry (i, j) of the matrix of the bands, unknowns by layers. */
+static double entry(const struct pressure_system *system, int i, int j)
+{
+	const double *const bands[3][3] = {
+		{system->below_lower, system->below_diagonal, system->below_upper},
+		{system->lower, system->diagonal, system->upper},
+		{system->above_lower, system->above_diagonal, system->above_upper}};
+	int up = j / system->faces - i / system->faces, right = j % system->faces - i % system->faces;
+
+	return abs(up) > 1 || abs(right) > 1 ? 0 : bands[up + 1][right + 1][i];
+}
+
+static void multiply(const struct pressure_system *system, const double *x, long double *out)
+{
+	int count = count_of(system);
+
+	for (int i = 0; i < count; i++) {
+		out[i] = 0;
+		for (int j = 0; j < count; j++)
+			out[i] += (long double)entry(system, i, j) * x[j];
+	}
+}
+
+static void take(const struct pressure_system *system, double *x)
+{
+	for (int i = 0; i < count_of(system); i++)
+		x[i] = pressure_system_x(system, i / system->faces)[i % system->faces];
+}
+
+static void put(struct pressure_system *system, const double *x)
+{
+	for (int i = 0; i < count_of(system); i++)
+		pressure_system_x(system, i / system->faces)[i % system->faces] = x[i];
+}
+
+static double norm(int count, const double *v)
+{
+	double sum = 0;
+
+	for (int i = 0; i < count; i++)
+		sum += v[i] * v[i];
+	return sqrt(sum);
+}
+
+/* A known solution, zero on dry faces, and its right side into `system`, whose bands `banded` has. */
+static void know(const struct pressure_system *banded, struct pressure_system *system, double *x)
+{
+	int count = count_of(banded);
+	long double *product = calloc((size_t)count, sizeof *product);
+	unsigned seed = 11;
+
+	assert_non_null(product);
+	for (int i = 0; i < count; i++)
+		x[i] = banded->cells.dry[i % banded->faces] ? 0 : noise(&seed);
+	multiply(banded, x, product);
+	for (int i = 0; i < count; i++)
+		system->rhs[i] = (double)product[i];
+	free(product);
+}
+
+/* |A^-1| in the maximum norm, by Gauss-Jordan elimination with pivots. */
+static double norm_of_inverse(const struct pressure_system *system)
+{
+	size_t n = (size_t)count_of(system), wide = 2 * n;
+	double *m = calloc(n * wide, sizeof *m), largest = 0;
+
+	assert_non_null(m);
+	for (size_t i = 0; i < n; i++) {
+		for (size_t j = 0; j < n; j++)
+			m[i * wide + j] = entry(system, (int)i, (int)j);
+		m[i * wide + n + i] = 1;
+	}
+	for (size_t k = 0; k < n; k++) {
+		size_t pivot = k;
+
+		for (size_t i = k + 1; i < n; i++)
+			if (fabs(m[i * wide + k]) > fabs(m[pivot * wide + k]))
+				pivot = i;
+		for (size_t j = 0; j < wide; j++) {
+			double swap = m[k * wide + j];
+
+			m[k * wide + j] = m[pivot * wide + j];
+			m[pivot * wide + j] = swap;
+		}
+		assert_true(m[k * wide + k] != 0);
+		for (size_t i = 0; i < n; i++) {
+			double factor = m[i * wide + k] / m[k * wide + k];
+
+			for (size_t j = k; j < wide && i != k && factor != 0; j++)
+				m[i * wide + j] -= factor * m[k * wide + j];
+		}
+	}
+	for (size_t i = 0; i < n; i++) {
+		double sum = 0;
+
+		for (size_t j = 0; j < n; j++)
+			sum += fabs(m[i * wide + n + j] / m[i * wide + i]);
+		largest = fmax(largest, sum);
+	}
+	free(m);
+	return largest;
+}
+
+/* A method at work on a problem. */
+struct work {
+	const struct problem *problem;
+	struct setup banded, own; /* the one that answers are checked with, the one that is solved */
+	const struct pressure_solver *solver;
+	void *memory;
+	double *exact, *found;
+};
+
+static bool fits(int method, const struct problem *problem)
+{
+	return problem->operator_ == OPERATOR_SYMMETRIC || !config_symmetric_only(method);
+}
+
+static void work_init(struct work *work, int method, const struct problem *problem)
+{
+	bool symmetric = problem->operator_ == OPERATOR_SYMMETRIC;
+	struct pressure_options options = {.threads = 1, .symmetric = symmetric};
+	struct error err = {0};
+	size_t count;
+
+	*work = (struct work){.problem = problem, .solver = pressure_solver_find(method, symmetric)};
+	setup_init(&work->banded, problem, true);
+	setup_init(&work->own, problem, !work->solver->matrix_free);
+	count = (size_t)count_of(&work->own.system);
+	work->exact = calloc(count, sizeof *work->exact);
+	work->found = calloc(count, sizeof *work->found);
+	assert_true(work->exact && work->found);
+	assert_int_equal(
+		work->solver->create(problem->layers, work->own.grid.faces, &options, &work->memory, &err),
+		0);
+	know(&work->banded.system, &work->own.system, work->exact);
+	memcpy(work->banded.system.rhs, work->own.system.rhs, count * sizeof(double));
+}
+
+static void work_clean(struct work *work)
+{
+	work->solver->free(work->memory);
+	setup_clean(&work->own);
+	setup_clean(&work->banded);
+	free(work->exact);
+	free(work->found);
+}
+
+/* |rhs - A x|/|rhs| of what was found, with the product of this file. */
+static double residual_of(const struct work *work)
+{
+	int count = count_of(&work->own.system);
+	long double *product = calloc((size_t)count, sizeof *product), sum = 0;
+	double scale = norm(count, work->own.system.rhs);
+
+	assert_non_null(product);
+	multiply(&work->banded.system, work->found, product);
+	for (int i = 0; i < count; i++)
+		sum += (work->own.system.rhs[i] - product[i]) * (work->own.system.rhs[i] - product[i]);
+	free(product);
+	return scale > 0 ? (double)sqrtl(sum) / scale : (double)sqrtl(sum);
+}
+
+static double error_of(const struct work *work)
+{
+	double worst = 0;
+
+	for (int i = 0; i < count_of(&work->own.system); i++)
+		worst = fmax(worst, fabs(work->found[i] - work->exact[i]));
+	return worst;
+}
+
+static void the_border_is_zero(const struct pressure_system *system)
+{
+	for (int a = -1; a <= system->layers; a++)
+		for (int f = -1; f <= system->faces; f++)
+			if (a == -1 || a == system->layers || f == -1 || f == system->faces)
+				assert_true(pressure_system_x(system, a)[f] == 0);
+}
+
+/* Every method of the config's list on every problem that it is for. */
+static void each(void (*check)(struct work *work))
+{
+	const char *const *names = field_find(&config_table, "pressure_solver.method")->choices;
+
+	for (int method = 0; names[method]; method++)
+		for (int p = 0; p < PROBLEMS; p++) {
+			struct work work;
+
+			if (!fits(method, &problems[p]))
+				continue;
+			print_message("# %s: %s\n", names[method], problems[p].name);
+			work_init(&work, method, &problems[p]);
+			check(&work);
+			work_clean(&work);
+		}
+}
+
+static void check_residual(struct work *work)
+{
+	const double wanted = 1e-9;
+	struct stopping_rule rule = {CRITERION_RESIDUAL, NORM_L2, 0, wanted, 100000};
+	struct pressure_system *system = &work->own.system;
+	double told;
+	int done = pressure_solver_solve(work->solver, system, &rule, work->memory, &told);
+
+	if (work->problem->wild && done < 0) {
+		assert_true(!(told <= wanted));
+		return;
+	}
+	assert_true(done >= 0);
+	take(system, work->found);
+	the_border_is_zero(system);
+	/* double against long double: the sum of nine products of numbers up to the largest of A and x */
+	assert_true(fabs(told - residual_of(work)) <= 1e-3 * wanted);
+	assert_true(told <= wanted);
+	/* e = A^-1 r, and no component of r is larger than its length */
+	assert_true(error_of(work) <= 1.01 * wanted * norm_of_inverse(&work->banded.system) *
+										  norm(count_of(system), system->rhs) +
+									  1e-12);
+}
+
+static void the_residual_is_what_was_asked_for_and_the_error_follows(void **state)
+{
+	(void)state;
+	each(check_residual);
+}
+
+static void check_increment(struct work *work)
+{
+	struct pressure_system *system = &work->own.system;
+	int count = count_of(system);
+	double *zeros = calloc((size_t)count, sizeof *zeros);
+
+	assert_non_null(zeros);
+	for (int kind = NORM_L1; kind <= NORM_LINF; kind++) {
+		struct stopping_rule rule = {CRITERION_INCREMENT, kind, 1e-12, 0, 100000};
+		double told;
+		int done;
+
+		put(system, zeros);
+		done = pressure_solver_solve(work->solver, system, &rule, work->memory, &told);
+		if (work->problem->wild && done < 0)
+			continue;
+		assert_true(done >= 0);
+		take(system, work->found);
+		/* the slowest of these iterations takes less than 1e-4 off its error at a time, so that what
+		 * is left is some 1e4 increments; weights of nearly dry cells go down to 1e-8 */
+		assert_true(error_of(work) < 1e-3);
+		assert_true(fabs(told - residual_of(work)) <= 1e-3 * told + 1e-12);
+	}
+	free(zeros);
+}
+
+static void a_small_increment_means_a_small_error_in_every_norm(void **state)
+{
+	(void)state;
+	each(check_increment);
+}
+
+static void check_start(struct work *work)
+{
+	struct stopping_rule rule = {CRITERION_RESIDUAL, NORM_L2, 0, 1e-9, 100000};
+	struct pressure_system *system = &work->own.system;
+	double told;
+
+	put(system, work->exact);
+	assert_true(pressure_solver_solve(work->solver, system, &rule, work->memory, &told) <= 1);
+	take(system, work->found);
+	assert_true(told <= 1e-9);
+	assert_true(residual_of(work) <= 1e-9);
+}
+
+static void a_start_at_the_solution_takes_one_iteration_at_most(void **state)
+{
+	(void)state;
+	each(check_start);
+}
+
+static void check_too_few(struct work *work)
+{
+	struct stopping_rule rule = {CRITERION_RESIDUAL, NORM_L2, 0, 1e-9, 100000};
+	struct pressure_system *system = &work->own.system;
+	double told, *zeros = calloc((size_t)count_of(system), sizeof *zeros);
+	int needed;
+
+	assert_non_null(zeros);
+	if (work->solver->kept) /* chooses anew at every solve */
+		goto done;
+	needed = work->solver->solve(system, &rule, work->memory);
+	put(system, zeros);
+	rule.max_iterations = needed - 1;
+	if (needed > 1)
+		assert_int_equal(
+			pressure_solver_solve(work->solver, system, &rule, work->memory, &told), 1 - needed);
+done:
+	free(zeros);
+}
+
+static void one_iteration_too_few_is_told_as_a_negative_count(void **state)
+{
+	(void)state;
+	each(check_too_few);
+}
+
+/* A face that is not dry, -1 if there is none. */
+static int wet_face(const struct pressure_system *system)
+{
+	int f = system->faces - 1;
+
+	while (f >= 0 && system->cells.dry[f])
+		f--;
+	return f;
+}
+
+static void refuses(struct work *work, int criterion, int kind)
+{
+	struct stopping_rule rule = {criterion, kind, 1e-6, 1e-8, 50};
+	double told;
+
+	put(&work->own.system, work->found); /* zeros */
+	assert_true(
+		pressure_solver_solve(work->solver, &work->own.system, &rule, work->memory, &told) < 0);
+	assert_true(!(told <= 1e-8));
+}
+
+static void check_nan(struct work *work)
+{
+	struct pressure_system *system = &work->own.system;
+	int wet = wet_face(system);
+
+	if (wet < 0)
+		return;
+	system->rhs[pressure_system_row(system, system->layers - 1) + (size_t)wet] = NAN;
+	for (int kind = NORM_L1; kind <= NORM_LINF; kind++) {
+		refuses(work, CRITERION_RESIDUAL, kind);
+		refuses(work, CRITERION_INCREMENT, kind);
+	}
+}
+
+static void a_nan_in_the_right_side_is_not_convergence(void **state)
+{
+	(void)state;
+	each(check_nan);
+}
+
+static void check_nan_matrix(struct work *work)
+{
+	struct pressure_system *system = &work->own.system;
+	int wet = wet_face(system);
+
+	if (wet < 0)
+		return;
+	if (system->diagonal)
+		system->diagonal[wet] = NAN;
+	if (system->symmetric) /* the cell to the left of the face, or to the right of the first */
+		system->cells.inverse[wet > 0 ? wet : 1] = NAN;
+	for (int kind = NORM_L1; kind <= NORM_LINF; kind++) {
+		refuses(work, CRITERION_RESIDUAL, kind);
+		refuses(work, CRITERION_INCREMENT, kind);
+	}
+}
+
+static void a_nan_in_the_matrix_is_not_convergence(void **state)
+{
+	(void)state;
+	each(check_nan_matrix);
+}
+
+static void check_zero(struct work *work)
+{
+	struct stopping_rule rule = {CRITERION_RESIDUAL, NORM_L2, 0, 1e-8, 50};
+	struct pressure_system *system = &work->own.system;
+	double told;
+
+	put(system, work->exact);
+	memset(system->rhs, 0, (size_t)count_of(system) * sizeof *system->rhs);
+	assert_int_equal(pressure_solver_solve(work->solver, system, &rule, work->memory, &told), 0);
+	take(system, work->found);
+	assert_true(told == 0);
+	assert_true(norm(count_of(system), work->found) == 0);
+}
+
+static void a_zero_right_side_is_solved_by_zeros(void **state)
+{
+	(void)state;
+	each(check_zero);
+}
+
+static void check_repeat(struct work *work)
+{
+	struct stopping_rule rule = {CRITERION_RESIDUAL, NORM_L2, 0, 1e-9, 100000};
+	struct pressure_system *system = &work->own.system;
+	int count = count_of(system), done[2];
+	double *first = calloc((size_t)count, sizeof *first), told;
+
+	assert_non_null(first);
+	for (int time = 0; time < 2 && !work->solver->kept; time++) {
+		memset(work->found, 0, (size_t)count * sizeof *work->found);
+		put(system, work->found);
+		done[time] = pressure_solver_solve(work->solver, system, &rule, work->memory, &told);
+		take(system, time ? work->found : first);
+		assert_int_equal(done[time], done[0]);
+	}
+	if (!work->solver->kept)
+		assert_memory_equal(first, work->found, (size_t)count * sizeof *first);
+	free(first);
+}
+
+static void a_solve_leaves_nothing_behind_for_the_next(void **state)
+{
+	(void)state;
+	each(check_repeat);
+}
+
+/* The two forms of a symmetric matrix, and the product by columns. */
+static void the_cells_and_the_bands_are_one_matrix(void **state)
+{
+	static double rows[2][LAYERS_MAX * (CELLS_MAX + 1)];
+
+	(void)state;
+	for (int p = 0; p < PROBLEMS; p++) {
+		struct setup setup;
+		struct pressure_system *system = &setup.system;
+
+		if (problems[p].operator_ != OPERATOR_SYMMETRIC)
+			continue;
+		setup_init(&setup, &problems[p], true);
+		int count = count_of(system);
+		struct columns columns = columns_make(system->layers, system->faces);
+		size_t all = columns_count(&columns);
+		double *x = calloc((size_t)count, sizeof *x), *in, *out, *sums;
+		double relative[2], dot = 0, largest = 0;
+
+		in = calloc(all, sizeof *in);
+		out = calloc(all, sizeof *out);
+		sums = calloc((size_t)columns.groups, sizeof *sums);
+		assert_true(x && in && out && sums);
+		know(system, system, x);
+		for (int i = 0; i < count; i++)
+			x[i] *= 0.5;
+		put(system, x);
+		for (int form = 0; form < 2; form++) {
+			system->symmetric = form;
+			relative[form] = pressure_system_residual_rows(system, rows[form]);
+		}
+		for (int i = 0; i < count; i++)
+			largest = fmax(largest, fabs(system->rhs[i]));
+		/* half of the right side is left; both are sums of at most nine products each */
+		assert_true(largest == 0 || fabs(relative[0] - 0.5) < 1e-12);
+		assert_true(fabs(relative[0] - relative[1]) < 1e-13);
+		columns_from_rows(
+			&columns, pressure_system_x(system, 0), system->x_stride, in, 0, columns.groups);
+		columns_apply(&columns, system, in, out, sums, 0, columns.groups);
+		for (int g = 0; g < columns.groups; g++)
+			dot += sums[g];
+		for (int i = 0; i < count; i++) {
+			int a = i / system->faces, f = i % system->faces;
+			double product = out[(size_t)f * columns.stride + (size_t)a];
+
+			assert_true(fabs(rows[0][i] - rows[1][i]) <= 1e-13 * largest);
+			assert_true(fabs(product - (system->rhs[i] - rows[0][i])) <= 1e-13 * largest);
+			dot -= x[i] * (system->rhs[i] - rows[0][i]);
+		}
+		/* rounding of a sum of `count` terms up to the largest */
+		assert_true(fabs(dot) <= 1e-14 * count * largest);
+		free(x);
+		free(in);
+		free(out);
+		free(sums);
+		setup_clean(&setup);
+	}
+}
+
+static void the_config_knows_what_each_method_is_for(void **state)
+{
+	const char *const *names = field_find(&config_table, "pressure_solver.method")->choices;
+
+	(void)state;
+	for (int method = 0; names[method]; method++) {
+		assert_string_equal(pressure_solver_find(method, true)->name, names[method]);
+		assert_int_equal(pressure_solver_find(method, true)->method, method);
+		assert_int_equal(
+			config_symmetric_only(method), pressure_solver_find(method, false)->symmetric_only);
+	}
+}
+
+/* The two forms of the paper's iteration differ by rounding alone. */
+static void factored_blocks_make_the_same_iterates(void **state)
+{
+	(void)state;
+	for (int p = 0; p < PROBLEMS; p++) {
+		struct work plain, factored;
+		double largest = 1;
+		struct stopping_rule rule = {CRITERION_INCREMENT, NORM_L2, 0, 0, 7};
+
+		work_init(&plain, METHOD_BLOCK_GAUSS_SEIDEL, &problems[p]);
+		work_init(&factored, METHOD_BLOCK_GAUSS_SEIDEL_FACTORED, &problems[p]);
+		(void)plain.solver->solve(&plain.own.system, &rule, plain.memory);
+		(void)factored.solver->solve(&factored.own.system, &rule, factored.memory);
+		take(&plain.own.system, plain.found);
+		take(&factored.own.system, factored.found);
+		for (int i = 0; i < count_of(&plain.own.system); i++)
+			largest = fmax(largest, fabs(plain.found[i]));
+		for (int i = 0; i < count_of(&plain.own.system); i++)
+			assert_true(fabs(plain.found[i] - factored.found[i]) <= 1e-11 * largest);
+		work_clean(&plain);
+		work_clean(&factored);
+	}
+}
+
+/* A sweep solves a line exactly, so that the second has nothing to add. */
+static void one_layer_is_solved_by_the_first_sweep(void **state)
+{
+	static const int methods[] = {METHOD_BLOCK_GAUSS_SEIDEL, METHOD_BLOCK_GAUSS_SEIDEL_FACTORED,
+		METHOD_RED_BLACK_LINE_RELAXATION};
+	struct stopping_rule rule = {CRITERION_INCREMENT, NORM_L2, 1e-12, 0, 10};
+
+	(void)state;
+	for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+		const struct problem line = {"", 1, 33, true, true, rough, OPERATOR_SYMMETRIC, false};
+		struct work work;
+
+		work_init(&work, methods[i], &line);
+		assert_int_equal(work.solver->solve(&work.own.system, &rule, work.memory), 2);
+		work_clean(&work);
+	}
+}
+
+static void the_norms_ask_for_different_numbers_of_sweeps(void **state)
+{
+	const struct problem thin = {"", 8, 40, true, true, wavy, OPERATOR_SYMMETRIC, false};
+	int sweeps[NORM_LINF + 1];
+
+	(void)state;
+	for (int kind = NORM_L1; kind <= NORM_LINF; kind++) {
+		struct stopping_rule rule = {CRITERION_INCREMENT, kind, 1e-6, 0, 10000};
+		struct work work;
+
+		work_init(&work, METHOD_BLOCK_GAUSS_SEIDEL, &thin);
+		sweeps[kind] = work.solver->solve(&work.own.system, &rule, work.memory);
+		work_clean(&work);
+	}
+	/* the area of the layers is 0.01 m2: a mean over it is less than the largest increment, and a mean
+	 * of squares that is less than 1 has a root above it */
+	assert_true(sweeps[NORM_L1] > 0);
+	assert_true(sweeps[NORM_L1] < sweeps[NORM_L2]);
+	assert_true(sweeps[NORM_L2] < sweeps[NORM_LINF]);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(the_config_knows_what_each_method_is_for),
+		cmocka_unit_test(the_cells_and_the_bands_are_one_matrix),
+		cmocka_unit_test(the_residual_is_what_was_asked_for_and_the_error_follows),
+		cmocka_unit_test(a_small_increment_means_a_small_error_in_every_norm),
+		cmocka_unit_test(a_start_at_the_solution_takes_one_iteration_at_most),
+		cmocka_unit_test(one_iteration_too_few_is_told_as_a_negative_count),
+		cmocka_unit_test(a_nan_in_the_right_side_is_not_convergence),
+		cmocka_unit_test(a_nan_in_the_matrix_is_not_convergence),
+		cmocka_unit_test(a_zero_right_side_is_solved_by_zeros),
+		cmocka_unit_test(a_solve_leaves_nothing_behind_for_the_next),
+		cmocka_unit_test(factored_blocks_make_the_same_iterates),
+		cmocka_unit_test(one_layer_is_solved_by_the_first_sweep),
+		cmocka_unit_test(the_norms_ask_for_different_numbers_of_sweeps),
+	};
+
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
