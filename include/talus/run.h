@@ -18,12 +18,16 @@ struct run_options {
 	bool progress; /* tell progress */
 	bool quiet;    /* do not tell results */
 	bool retry;    /* start a failed run anew */
+	/* Folder of a run that differs only by an earlier time.end: where the run's own folder has no run
+	 * file yet, it goes on from there. NULL: none. */
+	const char *from;
 	/* Told every line meant for people; NULL: nobody is. */
 	void (*say)(enum run_voice voice, const char *line);
 };
 
 /* Bring the run in `folder` (made when missing) to its end: start, resume, or find it complete, and
- * hold its lock meanwhile. Returns 0 when the run is complete. Codes: EX_FAILED, EX_DATAERR (files
+ * hold its lock meanwhile. A run there that differs only by an earlier time.end is a beginning of this
+ * one: it is gone on from, and if it was finished, stays as run.end-SECONDS.h5. Returns 0 when the run is complete. Codes: EX_FAILED, EX_DATAERR (files
  * damaged, or made from another config or numerics version: names the keys), EX_CANTCREAT, EX_IOERR,
  * EX_SOFTWARE, EX_INTERRUPTED (stopped by a signal with a checkpoint written, or locked by another
  * process). */

@@ -208,6 +208,19 @@ int config_hash(const struct config *config, char hash[CONFIG_HASH_SIZE], struct
 	return 0;
 }
 
+bool config_is_alike(const struct config *a, const struct config *b)
+{
+	struct config other = *a;
+	struct text keys = {0};
+	bool alike;
+
+	other.time.end = b->time.end;
+	field_differences(&config_table, &other, b, &keys);
+	alike = !keys.length && !keys.failed;
+	text_clean(&keys);
+	return alike;
+}
+
 void config_differences(const struct config *a, const struct config *b, struct text *out)
 {
 	field_differences(&config_table, a, b, out);

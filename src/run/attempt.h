@@ -10,6 +10,14 @@
 #include "talus/run.h"
 #include "talus/run_file.h"
 
+/* The state before the first step that time.end shortened. */
+struct attempt_mark {
+	double *values; /* of the model's arrays, one after another; NULL: there was no such step yet */
+	uint64_t step;
+	double time; /* simulated, s */
+	double cpu;  /* of all attempts until then, s */
+};
+
 struct attempt {
 	const struct model *model;
 	const struct config *config;
@@ -20,6 +28,7 @@ struct attempt {
 	struct recorder *recorder;
 	uint64_t step; /* steps done */
 	double time;   /* simulated, s */
+	struct attempt_mark mark;
 
 	char config_hash[CONFIG_HASH_SIZE];
 	char created[CLOCK_STAMP_SIZE]; /* when the run was begun */
