@@ -276,4 +276,5 @@ const struct model dry_model = {
 	.arrays = arrays,
 	.restored = dry_velocities,
 	.free = destroy,
+	.cost = dry_cost,
 };

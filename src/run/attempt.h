@@ -37,7 +37,8 @@ struct attempt {
 	double cpu_begin;               /* of the process when this attempt began, s */
 	bool keep_newest;               /* run.h5 is good, and is kept as the previous generation */
 
-	double wall_begin, time_begin;   /* where this attempt began: for the time left */
+	double rate_wall, rate_time;     /* the last tick, for the time left */
+	double wall_sum, time_sum;       /* passed since this attempt began; what is older counts less */
 	double status_due, progress_due; /* moments on the wall clock */
 	bool status_failed;              /* a status could not be written, and that was told */
 };

@@ -313,8 +313,6 @@ static int live(struct attempt *attempt, struct error *err)
 	run_file_close(file);
 	file = NULL;
 	if (result == 0) {
-		attempt->wall_begin = clock_wall();
-		attempt->time_begin = attempt->time;
 		attempt_log(attempt, "%s at step %llu, t = %g s", words[course],
 			(unsigned long long)attempt->step, attempt->time);
 		attempt_tick(attempt);
