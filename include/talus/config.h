@@ -95,6 +95,12 @@ int config_read(struct config *config, const char *path, const char *const *sett
 int config_parse(struct config *config, const char *text, size_t length, const char *name,
 	const char *const *settings, int count, struct error *err);
 
+/* The same from a text that is parsed already: one base for many configs. `name` must be that of
+ * the text. */
+struct node;
+int config_from_node(struct config *config, const struct node *root, const char *name,
+	const char *const *settings, int count, struct error *err);
+
 /* The config as YAML in SI units with every key; config_parse reads it back to the same bits. */
 void config_print(const struct config *config, struct text *out);
 
@@ -110,6 +116,10 @@ bool config_is_alike(const struct config *a, const struct config *b);
 
 /* Name, per line, every key (except `checkpoint`) whose value differs: "layers: 10 -> 20". */
 void config_differences(const struct config *a, const struct config *b, struct text *out);
+
+/* Whether a dotted key names a value (not a group), and whether that is a whole number. */
+bool config_is_key(const char *key);
+bool config_is_whole(const char *key);
 
 /* The value of a dotted key as config_print writes it, without the key. EX_DATAERR with the nearest
  * known key for an unknown one, or for a group. */
