@@ -49,12 +49,16 @@ struct run_report {
 	double wall_left;   /* estimated seconds to the end, NaN: unknown */
 	double cpu_seconds; /* so far, all attempts */
 	int attempts;
+	int failures;      /* attempts that failed, as far as is known */
 	char reason[1024]; /* why it failed or stopped, "" if it did not */
 };
 
 /* What state the run in `folder` is in. Never takes a lock, never changes anything, and never fails:
  * what cannot be read is told in `reason`. A `folder` that is missing is pending. */
 void run_report_read(const char *folder, struct run_report *report);
+
+/* How the attempts at the run in `folder` ended, the latest of them, a line for each. */
+void run_report_history(const char *folder, struct text *out);
 
 const char *run_state_name(enum run_state state);
 

@@ -37,10 +37,12 @@ struct attempt {
 	double cpu_begin;               /* of the process when this attempt began, s */
 	bool keep_newest;               /* run.h5 is good, and is kept as the previous generation */
 
-	double rate_wall, rate_time;     /* the last tick, for the time left */
-	double wall_sum, time_sum;       /* passed since this attempt began; what is older counts less */
+	double rate_wall, rate_time; /* the last tick, for the time left */
+	double wall_sum, time_sum;   /* passed since this attempt began; what is older counts less */
 	double status_due, progress_due; /* moments on the wall clock */
 	bool status_failed;              /* a status could not be written, and that was told */
+	struct text ended;               /* how the attempts before this one ended, line by line */
+	int failures;                    /* how many of them failed */
 };
 
 double attempt_cpu(const struct attempt *attempt);       /* of all attempts, s */

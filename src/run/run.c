@@ -278,6 +278,7 @@ static int conclude(struct attempt *attempt, int result, struct error *err)
 		attempt_say(attempt, RUN_VOICE_WARNING, "cannot mark the run as failed: %s", second.text);
 		attempt_log(attempt, "cannot mark the run as failed: %s", second.text);
 	}
+	status_note_end(attempt, state, reason);
 	status_write(attempt, state, reason);
 	attempt_log(attempt, "%s: %s", run_state_name(state),
 		result ? reason : clock_span(attempt_cpu(attempt), span));
@@ -332,7 +333,6 @@ int run_execute_model(const struct model *model, const struct config *config, co
 		.folder = folder,
 		.options = options,
 		.cpu_begin = clock_cpu()};
-	struct run_report before = {0};
 	struct lock lock = {-1};
 	struct text path = {0};
 	int result = -1;
@@ -341,12 +341,12 @@ int run_execute_model(const struct model *model, const struct config *config, co
 		file_path(&path, folder, "run.lock", err) != 0 ||
 		lock_take(&lock, text_string(&path), err) != 0)
 		goto done;
-	(void)status_read(folder, &before);
-	attempt.number = before.attempts + 1;
+	status_read_past(&attempt);
 	result = live(&attempt, err);
 done:
 	recorder_free(attempt.recorder);
 	free(attempt.mark.values);
+	text_clean(&attempt.ended);
 	model->free(attempt.state);
 	lock_release(&lock);
 	text_clean(&path);
