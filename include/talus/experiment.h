@@ -76,6 +76,7 @@ struct experiment {
 	struct setting_list overrides; /* of the command line, after them */
 	struct node *root;             /* the file; terms point into it */
 	struct run_key *keys;          /* [run_count], sorted: runs by hash and repeat */
+	int digits;                    /* of the hashes, which names end with */
 };
 
 enum { EXPERIMENT_RUNS_MAX = 10000 };

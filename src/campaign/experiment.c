@@ -223,7 +223,12 @@ void experiment_reference(struct text *out)
 static int read_form(const struct reader *reader, struct form *form)
 {
 	struct experiment *experiment = form->experiment;
+	const struct node *root = experiment->root;
 
+	if (root->kind == NODE_MAPPING && root->count && !node_find(root, "base") &&
+		config_is_key(root->items[0].key))
+		return reader_fail(reader, root,
+			"this is a config, not an experiment; `talus run %s` runs it", reader->path);
 	TRY(reader_keys(
 		reader, experiment->root, form_keys, sizeof form_keys / sizeof *form_keys, form));
 	if (!form->base)

@@ -180,27 +180,26 @@ static void add_readable(
 		out->data[out->length = READABLE_MAX] = '\0';
 }
 
-static int name_run(
-	const struct naming *naming, struct experiment_run *run, int digits, struct error *err)
+static int name_run(const struct naming *naming, struct experiment_run *run, struct error *err)
 {
 	struct text id = {0};
 
 	add_readable(naming, run, &id);
 	if (naming->experiment->repeat > 1)
 		text_addf(&id, "_repeat-%d", run->repeat);
-	text_addf(&id, "-%.*s", digits, run->hash);
+	text_addf(&id, "-%.*s", naming->experiment->digits, run->hash);
 	run->id = id.data;
 	return id.failed ? error_memory(err, id.length) : 0;
 }
 
-size_t run_name_find(const struct experiment *experiment, const char *name, int digits)
+size_t run_name_find(const struct experiment *experiment, const char *name)
 {
 	static const char mark[] = "_repeat-";
-	size_t length = strlen(name), tail = (size_t)digits + 1;
+	size_t length = strlen(name), digits = (size_t)experiment->digits, tail = digits + 1;
 	const char *end = name + length - tail, *start;
 	int repeat = 1;
 
-	if (length <= tail || *end != '-' || strspn(end + 1, "0123456789abcdef") != (size_t)digits)
+	if (length <= tail || *end != '-' || strspn(end + 1, "0123456789abcdef") != digits)
 		return experiment->run_count;
 	start = end;
 	while (start > name && isdigit((unsigned char)start[-1]))
@@ -212,14 +211,14 @@ size_t run_name_find(const struct experiment *experiment, const char *name, int 
 }
 
 /* The folders that exist, by their names: an own id before any other, and the first of those. */
-static int find_folders(struct experiment *experiment, int digits, struct error *err)
+static int find_folders(struct experiment *experiment, struct error *err)
 {
 	struct dirent **entries = NULL;
 	/* a folder that is not there, or cannot be read, has no runs yet */
 	int count = scandir(experiment->folder, &entries, NULL, alphasort), result = 0;
 
 	for (int i = 0; i < count; i++) {
-		size_t index = run_name_find(experiment, entries[i]->d_name, digits);
+		size_t index = run_name_find(experiment, entries[i]->d_name);
 		struct experiment_run *run = &experiment->runs[index];
 
 		if (!result && index < experiment->run_count &&
@@ -239,15 +238,15 @@ static int find_folders(struct experiment *experiment, int digits, struct error 
 int experiment_name_runs(struct experiment *experiment, struct error *err)
 {
 	struct naming naming;
-	int digits, result = -1;
+	int result = -1;
 
 	if (naming_init(&naming, experiment, err) || run_key_sort(experiment, err))
 		goto done;
-	digits = run_key_digits(experiment, DIGITS);
+	experiment->digits = run_key_digits(experiment, DIGITS);
 	for (size_t i = 0; i < experiment->run_count; i++)
-		if (name_run(&naming, &experiment->runs[i], digits, err))
+		if (name_run(&naming, &experiment->runs[i], err))
 			goto done;
-	if (find_folders(experiment, digits, err))
+	if (find_folders(experiment, err))
 		goto done;
 	for (size_t i = 0; i < experiment->run_count; i++) {
 		struct experiment_run *run = &experiment->runs[i];
@@ -262,4 +261,9 @@ int experiment_name_runs(struct experiment *experiment, struct error *err)
 done:
 	naming_clean(&naming);
 	return result;
+}
+
+bool experiment_owns(const struct experiment *experiment, const char *name)
+{
+	return run_name_find(experiment, name) < experiment->run_count;
 }

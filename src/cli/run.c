@@ -119,9 +119,11 @@ static int execute(struct run_command *command)
 	if (folder.failed)
 		(void)error_memory(&err, folder.capacity);
 	else if (config_read(&config, command->file, command->settings.list, command->settings.count,
-				 &err) == 0)
+				 &err) != 0)
+		code = command_config_fail(command->file, &err);
+	else
 		(void)run_execute(&config, text_string(&folder), &command->run, &err);
-	if (err.code)
+	if (err.code && !code)
 		code = command_fail(&err);
 	text_clean(&folder);
 	return code;

@@ -54,7 +54,8 @@ static int leave_folder(void **state)
 static struct campaign execute(
 	struct experiment *experiment, const char *script, const struct campaign_watch *watch)
 {
-	const struct campaign_options options = {.jobs = 1, .program = "./program"};
+	const struct campaign_options options = {
+		.jobs = 1, .in_order = true, .program = "./program"};
 	struct campaign campaign;
 	struct error err = {0};
 
