@@ -116,10 +116,13 @@ static void become_run(const struct campaign *campaign, char *const *arguments, 
 
 const char *task_from(const struct campaign *campaign, const struct task *task)
 {
+	const struct task *before = task->before == SIZE_MAX ? NULL : &campaign->tasks[task->before];
+
 	if (task->report.state != RUN_STATE_PENDING)
 		return NULL;
-	if (task->before != SIZE_MAX && campaign->tasks[task->before].state == TASK_COMPLETE)
-		return campaign->tasks[task->before].run->folder;
+	if (before && (before->report.state == RUN_STATE_COMPLETE ||
+					  before->report.state == RUN_STATE_INTERRUPTED))
+		return before->run->folder;
 	return task->from;
 }
 

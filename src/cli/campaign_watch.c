@@ -74,14 +74,20 @@ static void draw(struct watch *watch)
 		RUN_STATE_RUNNING, RUN_STATE_FAILED, RUN_STATE_DAMAGED, RUN_STATE_INTERRUPTED};
 	const struct campaign *campaign = watch->campaign;
 	struct text out = {0};
+	char back[32] = "";
+	size_t start;
 	int columns, rows, used = 1;
 
 	campaign_screen(STDOUT_FILENO, &columns, &rows);
 	if (watch->drawn)
-		text_addf(&out, "\033[%dA\r", watch->drawn);
+		(void)snprintf(back, sizeof back, "\033[%dA\r", watch->drawn);
+	text_add(&out, back);
 	summarise(watch, &out);
-	out.data[out.length - 1] = '\033';
-	text_add(&out, "[K\n");
+	out.data[--out.length] = '\0';
+	start = strlen(back);
+	if (columns && out.length - start > (size_t)columns)
+		out.data[out.length = start + (size_t)columns] = '\0';
+	text_add(&out, "\033[K\n");
 	for (size_t s = 0; s < sizeof shown / sizeof *shown; s++)
 		for (size_t i = 0; i < campaign->experiment->run_count && used < rows - 1; i++) {
 			if (campaign->tasks[i].report.state != shown[s])
