@@ -38,8 +38,10 @@ static int add(
 		size_t capacity = list->capacity ? 2 * list->capacity : 64;
 		struct candidate *items = realloc(list->items, capacity * sizeof *items);
 
-		if (!items)
-			return error_memory(err, capacity * sizeof *items);
+		if (!items) {
+			error_memory(err, capacity * sizeof *items);
+			return -1;
+		}
 		list->items = items;
 		list->capacity = capacity;
 	}
@@ -53,7 +55,6 @@ static int add(
  * read is no beginning, and no reason to stop. */
 static int add_folder(struct list *list, const char *folder, const char *name, struct error *err)
 {
-	struct candidate candidate = {.repeat = 0, .task = SIZE_MAX};
 	struct text path = {0}, file = {0};
 	struct error unreadable = {0};
 	struct run_report report;
@@ -71,10 +72,13 @@ static int add_folder(struct list *list, const char *folder, const char *name, s
 	run_report_read(text_string(&path), &report);
 	if (report.state != RUN_STATE_COMPLETE && report.state != RUN_STATE_INTERRUPTED)
 		goto done;
-	candidate.folder = strdup(text_string(&path));
-	result = candidate.folder ? add(list, &config, candidate, err) : error_memory(err, path.length);
-	if (result)
-		free(candidate.folder);
+	result = add(list, &config, (struct candidate){.task = SIZE_MAX}, err);
+	if (!result) {
+		struct candidate *last = &list->items[list->count - 1];
+
+		last->folder = strdup(text_string(&path));
+		result = last->folder ? 0 : error_memory(err, path.length);
+	}
 done:
 	text_clean(&path);
 	text_clean(&file);

@@ -168,14 +168,15 @@ int campaign_find_run(
 int campaign_select_failed(
 	struct campaign *campaign, char *const *names, int count, struct error *err)
 {
-	size_t runs = campaign->experiment->run_count, index;
+	size_t runs = campaign->experiment->run_count, index = 0;
 	bool *named = calloc(runs, sizeof *named);
-	int result = named ? 0 : error_memory(err, runs * sizeof *named);
+	int result = 0;
 
+	if (!named)
+		return error_memory(err, runs * sizeof *named);
 	for (int i = 0; !result && i < count; i++) {
 		result = campaign_find_run(campaign->experiment, names[i], &index, err);
-		if (!result)
-			named[index] = true;
+		named[index] = true;
 	}
 	for (size_t i = 0; !result && i < runs; i++)
 		if (!campaign->tasks[i].failed_before || (count && !named[i]))

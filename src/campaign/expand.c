@@ -120,8 +120,10 @@ static int seen_grow(struct seen *seen, struct error *err)
 	struct seen larger = {.capacity = seen->capacity ? 2 * seen->capacity : 64};
 
 	larger.hashes = calloc(larger.capacity, sizeof *larger.hashes);
-	if (!larger.hashes)
-		return error_memory(err, larger.capacity * sizeof *larger.hashes);
+	if (!larger.hashes) {
+		error_memory(err, larger.capacity * sizeof *larger.hashes);
+		return -1;
+	}
 	for (size_t i = 0; i < seen->capacity; i++) {
 		size_t at = seen->hashes[i] & (larger.capacity - 1);
 
@@ -142,7 +144,7 @@ static int seen_add(struct seen *seen, const char *hash, bool *again, struct err
 	uint64_t value = strtoull(hash, NULL, 16) | 1; /* 0 means free; nobody misses a bit of 64 */
 	size_t at;
 
-	if (2 * seen->count >= seen->capacity)
+	if (!seen->hashes || 2 * seen->count >= seen->capacity)
 		TRY(seen_grow(seen, err));
 	at = value & (seen->capacity - 1);
 	while (seen->hashes[at] && seen->hashes[at] != value)

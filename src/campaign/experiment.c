@@ -226,13 +226,17 @@ static int read_form(const struct reader *reader, struct form *form)
 	const struct node *root = experiment->root;
 
 	if (root->kind == NODE_MAPPING && root->count && !node_find(root, "base") &&
-		config_is_key(root->items[0].key))
-		return reader_fail(reader, root,
-			"this is a config, not an experiment; `talus run %s` runs it", reader->path);
+		config_is_key(root->items[0].key)) {
+		reader_fail(reader, root, "this is a config, not an experiment; `talus run %s` runs it",
+			reader->path);
+		return -1;
+	}
 	TRY(reader_keys(
 		reader, experiment->root, form_keys, sizeof form_keys / sizeof *form_keys, form));
-	if (!form->base)
-		return reader_fail(reader, experiment->root, "the experiment lacks its 'base' config");
+	if (!form->base) {
+		reader_fail(reader, experiment->root, "the experiment lacks its 'base' config");
+		return -1;
+	}
 	return share_published(reader, experiment);
 }
 

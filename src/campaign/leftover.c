@@ -64,8 +64,10 @@ static bool has_its_hash(const char *folder, const char *name, struct config *co
 
 	good = good && file_path(&path, folder, "config.yaml", &unreadable) == 0 &&
 		   config_read(config, text_string(&path), NULL, 0, &unreadable) == 0 &&
-		   config_hash(config, hash, &unreadable) == 0 &&
-		   !strncmp(hash, digits + 1, strlen(digits + 1));
+		   config_hash(config, hash, &unreadable) == 0;
+	if (good)
+		hash[strlen(digits + 1)] = '\0';
+	good = good && !strcmp(hash, digits + 1);
 	text_clean(&path);
 	return good;
 }

@@ -97,8 +97,8 @@ static int naming_init(
 			experiment->runs[i].settings.count > most ? experiment->runs[i].settings.count : most;
 	most += 128; /* no config has so many keys; duplicates are refused */
 	naming->keys = calloc(most, sizeof *naming->keys);
-	naming->classes = calloc(2 * runs, sizeof *naming->classes);
-	naming->sorted = calloc(runs, sizeof *naming->sorted);
+	naming->classes = calloc(2 * runs + 1, sizeof *naming->classes);
+	naming->sorted = calloc(runs + 1, sizeof *naming->sorted);
 	if (!naming->keys || !naming->classes || !naming->sorted)
 		return error_memory(err, 2 * runs * sizeof *naming->classes);
 	(void)split(naming, NULL);

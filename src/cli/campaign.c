@@ -14,9 +14,7 @@
 
 static const struct campaign_action *const actions[] = {&campaign_action_run,
 	&campaign_action_status, &campaign_action_watch, &campaign_action_why, &campaign_action_retry,
-	&campaign_action_cancel, &campaign_action_prune};
-
-enum { ACTIONS = sizeof actions / sizeof *actions };
+	&campaign_action_cancel, &campaign_action_prune, NULL};
 
 static void print_help(const struct campaign_action *action, struct text *out)
 {
@@ -28,7 +26,7 @@ static void print_help(const struct campaign_action *action, struct text *out)
 	text_add(out, "Run an experiment: every run in a process of its own, resumed where it was "
 				  "stopped.\n\nusage: talus campaign ACTION [OPTION]... EXPERIMENT\n"
 				  "example: talus campaign run -j 2 experiments/quickstart.yaml\n\nactions:\n");
-	for (size_t i = 0; i < ACTIONS; i++)
+	for (size_t i = 0; actions[i]; i++)
 		text_addf(out, "  %-8s %s\n", actions[i]->name, actions[i]->summary);
 	text_add(out,
 		"\n`talus campaign ACTION --help` has the options; `talus tables --reference` the "
@@ -169,7 +167,7 @@ static int read_options(int argc, char **argv, const struct campaign_action *act
 
 static const struct campaign_action *find_action(const char *name)
 {
-	for (size_t i = 0; i < ACTIONS; i++)
+	for (size_t i = 0; actions[i]; i++)
 		if (!strcmp(name, actions[i]->name))
 			return actions[i];
 	return NULL;

@@ -102,10 +102,13 @@ static int prune_main(
 	size_t count = (size_t)arguments->name_count, read = 0;
 	struct experiment *all = calloc(count + 1, sizeof *all);
 	struct error err = {0};
-	int result = all ? 0 : error_memory(&err, (count + 1) * sizeof *all), code;
+	int result = 0, code;
 
-	if (all)
-		all[0] = *experiment;
+	if (!all) {
+		(void)error_memory(&err, (count + 1) * sizeof *all);
+		return command_fail(&err);
+	}
+	all[0] = *experiment;
 	for (; !result && read < count; read++)
 		result = experiment_read(&all[read + 1], arguments->names[read], experiment->folder,
 			arguments->settings.list, arguments->settings.count, &err);
