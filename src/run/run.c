@@ -171,6 +171,7 @@ static int find_beginning(
 		attempt_log(attempt, "goes on from %s, a run to %g s", attempt->options->from, earlier);
 		return 0;
 	}
+	attempt->cpu_before = 0;
 	run_file_close(*file);
 	*file = NULL;
 	if (why.code == EX_SOFTWARE) {
