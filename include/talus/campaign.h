@@ -18,6 +18,7 @@ enum task_state {
 	TASK_COMPLETE,
 	TASK_FAILED,
 	TASK_INTERRUPTED, /* the same command goes on with it */
+	TASK_LEFT,        /* not asked for */
 };
 
 /* A run on its way. */
@@ -25,15 +26,26 @@ struct task {
 	const struct experiment_run *run;
 	enum task_state state;
 	bool skipped;             /* complete or failed before this command */
+	bool failed_before;       /* this command */
+	int starts;               /* of a child, by this command */
 	pid_t pid;                /* of the child while it runs */
 	int code;                 /* exit code of the child, 128 + signal where one ended it */
 	int refusals;             /* how often a child left because another process held the lock */
+	double cost;              /* CPU seconds that the whole run is expected to take */
+	double started;           /* when the child was, by clock_wall, s */
+	bool timed_out;           /* and was told to stop */
 	struct run_report report; /* as last read */
+	size_t before; /* the run of this campaign that this one goes on from; SIZE_MAX: none */
+	char *from;    /* folder of another run that it goes on from, owned; NULL: none */
 };
 
 struct campaign_options {
-	int jobs;            /* children at a time; 0: as many as there are processors */
-	bool retry;          /* start failed runs anew */
+	int jobs;  /* children at a time; 0: as many as there are processors */
+	int retry; /* a run that fails is started anew until it has failed this often, and once more */
+	bool anew; /* what failed before this command does not count */
+	double timeout;      /* wall clock that a child may take before it is told to stop, s; 0: any */
+	int max_failures;    /* so many failed runs, and no more are started; 0: any */
+	bool in_order;       /* of the experiment; else the longest expected run first */
 	const char *program; /* run as `program run FILE -o DIR --quiet`; NULL: this very program */
 };
 
@@ -41,6 +53,7 @@ struct campaign;
 
 /* Called as things happen; NULL: not. */
 struct campaign_watch {
+	/* a run is over, or waits to be tried again: its report says why */
 	void (*ended)(void *context, const struct campaign *campaign, const struct task *task);
 	void (*tick)(void *context, const struct campaign *campaign); /* about twice a second */
 	void *context;
@@ -51,7 +64,9 @@ struct campaign {
 	struct campaign_options options;
 	struct campaign_watch watch;
 	struct task *tasks; /* [experiment->run_count], in the order of the experiment */
-	bool stopping;      /* a signal asked for it */
+	double scale;       /* CPU seconds of the runs that are complete, by those that were expected */
+	bool stopping;      /* a signal or `campaign_cancel` asked for it */
+	bool gave_up;       /* max_failures runs have failed */
 };
 
 /* How runs are executed; a row of the table in executor.c. */
@@ -70,18 +85,38 @@ int campaign_create(struct campaign *campaign, const struct experiment *experime
 
 void campaign_clean(struct campaign *campaign);
 
-/* Bring every run to its end. Failed runs do not stop the others. SIGINT, SIGTERM, SIGHUP and SIGUSR1
+/* Leave out all runs but those that failed and are among `names` (RUN-IDs, their beginnings, or the
+ * digits of their hashes; none: all that failed). EX_DATAERR: a name fits no run, or several. */
+int campaign_select_failed(
+	struct campaign *campaign, char *const *names, int count, struct error *err);
+
+/* The run of that name, as above. EX_DATAERR. */
+int campaign_find_run(
+	const struct experiment *experiment, const char *name, size_t *index, struct error *err);
+
+/* Bring every run to its end. Failed runs do not stop the others, up to max_failures. A run that differs
+ * from another only by a later time.end goes on from that one. SIGINT, SIGTERM, SIGHUP and SIGUSR1
  * stop the children, whose checkpoints are waited for; a second SIGINT ends the wait. Returns 0 also
  * when runs failed: see the tasks and campaign_code. EX_CANTCREAT, EX_IOERR, EX_SOFTWARE. */
 int campaign_execute(struct campaign *campaign, const struct executor *executor, struct error *err);
 
-/* The exit code of the campaign: EX_INTERRUPTED beats EX_FAILED beats 0. */
+/* Look again at the runs that are not complete, as somebody who works on none of them. */
+void campaign_look(struct campaign *campaign);
+
+/* The exit code of the campaign: EX_INTERRUPTED beats EX_FAILED beats 0; one that gave up has failed. */
 int campaign_code(const struct campaign *campaign);
 
 size_t campaign_count(const struct campaign *campaign, enum task_state state);
 
-/* Done and to do in the same unit: simulated time times cells times layers, over all runs. */
+/* Done and to do in CPU seconds, as expected from the models and from what has run. */
 void campaign_work(const struct campaign *campaign, double *done, double *all);
+
+/* CPU seconds that are left of a run. */
+double campaign_task_left(const struct campaign *campaign, const struct task *task);
+
+/* Ask every campaign command that works in the folder of this experiment, on whatever machine, to stop
+ * as by SIGTERM. EX_CANTCREAT, EX_IOERR. */
+int campaign_cancel(const struct experiment *experiment, struct error *err);
 
 /* The last `lines` lines of the run's log. */
 void campaign_log_end(const struct experiment_run *run, int lines, struct text *out);

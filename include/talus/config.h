@@ -112,6 +112,11 @@ int config_parse(struct config *config, const char *text, size_t length, const c
 
 /* Does this method (enum method_kind) solve the symmetric operator alone? */
 bool config_symmetric_only(int method);
+/* The same from a text that is parsed already: one base for many configs. `name` must be that of
+ * the text. */
+struct node;
+int config_from_node(struct config *config, const struct node *root, const char *name,
+	const char *const *settings, int count, struct error *err);
 
 /* The config as YAML in SI units with every key; config_parse reads it back to the same bits. */
 void config_print(const struct config *config, struct text *out);
@@ -123,9 +128,16 @@ void config_print_reference(struct text *out);
 enum { CONFIG_HASH_SIZE = 17 };
 int config_hash(const struct config *config, char hash[CONFIG_HASH_SIZE], struct error *err);
 
+/* Whether two configs differ in nothing but time.end (and what cannot change numbers). */
+bool config_is_alike(const struct config *a, const struct config *b);
+
 /* Name, per line, every key (except `checkpoint` and `threads`) whose value differs:
  * "layers: 10 -> 20". */
 void config_differences(const struct config *a, const struct config *b, struct text *out);
+
+/* Whether a dotted key names a value (not a group), and whether that is a whole number. */
+bool config_is_key(const char *key);
+bool config_is_whole(const char *key);
 
 /* The value of a dotted key as config_print writes it, without the key. EX_DATAERR with the nearest
  * known key for an unknown one, or for a group. */

@@ -37,10 +37,12 @@ struct experiment_run {
 	struct config config;         /* effective */
 	char hash[CONFIG_HASH_SIZE];  /* config_hash of it */
 	struct setting_list settings; /* of its entry in `runs`, in order */
+	int point;                    /* of the sampled design that it belongs to, from 1; 0: of none */
 	int repeat;                   /* counted from 1 */
 };
 
 struct node;
+struct run_key;
 
 /* A table as the file asks for it; src/tables gives it its meaning. */
 struct experiment_table {
@@ -68,12 +70,13 @@ struct experiment {
 	struct experiment_table *tables; /* [table_count] */
 	size_t table_count;
 
-	char *base; /* path of the base config, and its text */
-	char *base_text;
-	size_t base_length;
+	char *base; /* path of the base config, and what it says */
+	struct node *base_root;
 	struct setting_list set;       /* for all runs, before their own */
 	struct setting_list overrides; /* of the command line, after them */
 	struct node *root;             /* the file; terms point into it */
+	struct run_key *keys;          /* [run_count], sorted: runs by hash and repeat */
+	int digits;                    /* of the hashes, which names end with */
 };
 
 enum { EXPERIMENT_RUNS_MAX = 10000 };
@@ -86,6 +89,9 @@ int experiment_read(struct experiment *experiment, const char *path, const char 
 	const char *const *overrides, int count, struct error *err);
 
 void experiment_clean(struct experiment *experiment);
+
+/* Every key of an experiment file, in Markdown. */
+void experiment_reference(struct text *out);
 
 /* The config of `run` with `more` on top. A bad one among `more` is cited with its place. */
 int experiment_vary(const struct experiment *experiment, const struct experiment_run *run,

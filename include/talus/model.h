@@ -74,6 +74,8 @@ struct model {
 	/* To be called after the arrays were overwritten: rebuilds what follows from them. */
 	void (*restored)(struct model_state *state);
 	void (*free)(struct model_state *state); /* NULL-safe */
+	/* CPU seconds that a whole run takes, roughly: known before it begins. NULL: nobody knows. */
+	double (*cost)(const struct config *config);
 };
 
 enum { MODEL_ARRAYS_MAX = 16 };
@@ -82,5 +84,9 @@ extern const struct model dry_model;
 
 /* The model that a config names. */
 const struct model *model_find(const struct config *config);
+
+/* CPU seconds that a run of this config takes, roughly; where its model does not know, a guess from
+ * cells and layers that at least tells a long run from a short one. */
+double model_cost(const struct config *config);
 
 #endif

@@ -18,12 +18,16 @@ struct run_options {
 	bool progress; /* tell progress */
 	bool quiet;    /* do not tell results */
 	bool retry;    /* start a failed run anew */
+	/* Folder of a run that differs only by an earlier time.end: where the run's own folder has no run
+	 * file yet, it goes on from there. NULL: none. */
+	const char *from;
 	/* Told every line meant for people; NULL: nobody is. */
 	void (*say)(enum run_voice voice, const char *line);
 };
 
 /* Bring the run in `folder` (made when missing) to its end: start, resume, or find it complete, and
- * hold its lock meanwhile. Returns 0 when the run is complete. Codes: EX_FAILED, EX_DATAERR (files
+ * hold its lock meanwhile. A run there that differs only by an earlier time.end is a beginning of this
+ * one: it is gone on from, and if it was finished, stays as run.end-SECONDS.h5. Returns 0 when the run is complete. Codes: EX_FAILED, EX_DATAERR (files
  * damaged, or made from another config or numerics version: names the keys), EX_CANTCREAT, EX_IOERR,
  * EX_SOFTWARE, EX_INTERRUPTED (stopped by a signal with a checkpoint written, or locked by another
  * process). */
@@ -45,12 +49,16 @@ struct run_report {
 	double wall_left;   /* estimated seconds to the end, NaN: unknown */
 	double cpu_seconds; /* so far, all attempts */
 	int attempts;
+	int failures;      /* attempts that failed, as far as is known */
 	char reason[1024]; /* why it failed or stopped, "" if it did not */
 };
 
 /* What state the run in `folder` is in. Never takes a lock, never changes anything, and never fails:
  * what cannot be read is told in `reason`. A `folder` that is missing is pending. */
 void run_report_read(const char *folder, struct run_report *report);
+
+/* How the attempts at the run in `folder` ended, the latest of them, a line for each. */
+void run_report_history(const char *folder, struct text *out);
 
 const char *run_state_name(enum run_state state);
 

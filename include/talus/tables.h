@@ -61,6 +61,9 @@ void table_clean(struct table *table);
 /* Is every table of the experiment one that could be built once its runs are complete? */
 int table_check(const struct experiment *experiment, struct error *err);
 
+/* Every metric, in Markdown. */
+void table_reference(struct text *out);
+
 /* NULL if there is none of that name. */
 const struct table_format *table_format_find(const char *name);
 

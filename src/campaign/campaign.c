@@ -1,11 +1,17 @@
 #include "talus/campaign.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/build.h"
+#include "base/clock.h"
 #include "base/file.h"
+#include "campaign/beginning.h"
 #include "campaign/task.h"
+#include "talus/model.h"
 
 int campaign_create(struct campaign *campaign, const struct experiment *experiment,
 	const struct campaign_options *options, struct error *err)
@@ -22,14 +28,20 @@ int campaign_create(struct campaign *campaign, const struct experiment *experime
 		struct task *task = &campaign->tasks[i];
 
 		task->run = &experiment->runs[i];
+		task->cost = model_cost(&task->run->config);
+		task->before = SIZE_MAX;
 		task_look(campaign, task);
+		task->failed_before = task->report.state == RUN_STATE_FAILED;
 		task->skipped = task->state == TASK_COMPLETE || task->state == TASK_FAILED;
 	}
-	return 0;
+	campaign_calibrate(campaign);
+	return beginning_find(campaign, err);
 }
 
 void campaign_clean(struct campaign *campaign)
 {
+	for (size_t i = 0; campaign->tasks && i < campaign->experiment->run_count; i++)
+		free(campaign->tasks[i].from);
 	free(campaign->tasks);
 	campaign->tasks = NULL;
 }
@@ -51,25 +63,137 @@ size_t campaign_count(const struct campaign *campaign, enum task_state state)
 
 int campaign_code(const struct campaign *campaign)
 {
-	size_t ended = campaign_count(campaign, TASK_COMPLETE) + campaign_count(campaign, TASK_FAILED);
+	size_t failed = campaign_count(campaign, TASK_FAILED);
+	size_t ended =
+		campaign_count(campaign, TASK_COMPLETE) + failed + campaign_count(campaign, TASK_LEFT);
 
+	if (campaign->gave_up && !campaign->stopping)
+		return EX_FAILED;
 	if (ended < campaign->experiment->run_count)
 		return EX_INTERRUPTED;
-	return campaign_count(campaign, TASK_FAILED) ? EX_FAILED : 0;
+	return failed ? EX_FAILED : 0;
+}
+
+void campaign_calibrate(struct campaign *campaign)
+{
+	double took = 0, expected = 0;
+
+	for (size_t i = 0; i < campaign->experiment->run_count; i++) {
+		const struct task *task = &campaign->tasks[i];
+
+		if (task->report.state != RUN_STATE_COMPLETE || !(task->report.cpu_seconds > 0))
+			continue;
+		took += task->report.cpu_seconds;
+		expected += task->cost;
+	}
+	campaign->scale = expected > 0 ? took / expected : 1;
+}
+
+void campaign_look(struct campaign *campaign)
+{
+	for (size_t i = 0; i < campaign->experiment->run_count; i++) {
+		struct task *task = &campaign->tasks[i];
+
+		if (task->state == TASK_COMPLETE)
+			continue;
+		task->state = TASK_WAITING;
+		task_look(campaign, task);
+	}
+	campaign_calibrate(campaign);
+}
+
+double campaign_task_left(const struct campaign *campaign, const struct task *task)
+{
+	double expected = task->cost * campaign->scale, share = 0;
+
+	if (task->state == TASK_COMPLETE || task->state == TASK_FAILED || task->state == TASK_LEFT)
+		return 0;
+	if (task->report.time > 0)
+		share = fmin(task->report.time / task->run->config.time.end, 1);
+	/* one that has taken more than all that was expected still has something left */
+	return fmax(
+		expected - (share > 0 ? task->report.cpu_seconds : 0), 0.1 * expected * (1 - share));
 }
 
 void campaign_work(const struct campaign *campaign, double *done, double *all)
 {
-	*done = *all = 0;
-	for (size_t i = 0; i < campaign->experiment->run_count; i++) {
-		const struct task *task = &campaign->tasks[i];
-		const struct config *config = &task->run->config;
-		double weight = (double)config->domain.cells * config->layers;
-		bool ended = task->state == TASK_COMPLETE || task->state == TASK_FAILED;
+	double left = 0;
 
-		*all += weight * config->time.end;
-		*done += weight * (ended ? config->time.end : task->report.time);
+	*all = 0;
+	for (size_t i = 0; i < campaign->experiment->run_count; i++) {
+		if (campaign->tasks[i].state == TASK_LEFT)
+			continue;
+		*all += campaign->tasks[i].cost * campaign->scale;
+		left += campaign_task_left(campaign, &campaign->tasks[i]);
 	}
+	*done = fmax(*all - left, 0);
+}
+
+/* Does `name` mean this run: its id, the beginning of it, its folder, or digits of its hash? */
+static bool is_meant(const struct experiment_run *run, const char *name, bool exactly)
+{
+	size_t length = strlen(name);
+	const char *hash = strrchr(run->id, '-');
+
+	if (!strcmp(run->id, name) || !strcmp(run->folder, name))
+		return true;
+	if (!strncmp(run->folder, name, length - 1) && name[length - 1] == '/' &&
+		strlen(run->folder) == length - 1)
+		return true;
+	return !exactly && (!strncmp(run->id, name, length) ||
+						   (length >= 4 && hash && !strncmp(run->hash, name, length)));
+}
+
+int campaign_find_run(
+	const struct experiment *experiment, const char *name, size_t *index, struct error *err)
+{
+	size_t found = 0;
+	char shown[160];
+
+	if (!*name)
+		return error_set(err, EX_DATAERR, "the name of a run is empty");
+	(void)text_excerpt(name, shown, sizeof shown);
+	for (int exactly = 1; exactly >= 0 && !found; exactly--)
+		for (size_t i = 0; i < experiment->run_count; i++)
+			if (is_meant(&experiment->runs[i], name, exactly)) {
+				*index = i;
+				found++;
+			}
+	if (found == 1)
+		return 0;
+	return error_at(err, EX_DATAERR, experiment->path, 0, 0,
+		found ? "%s fits %zu runs; write more of the name" : "has no run '%s'", shown, found);
+}
+
+int campaign_select_failed(
+	struct campaign *campaign, char *const *names, int count, struct error *err)
+{
+	size_t runs = campaign->experiment->run_count, index = 0;
+	bool *named = calloc(runs, sizeof *named);
+	int result = 0;
+
+	if (!named)
+		return error_memory(err, runs * sizeof *named);
+	for (int i = 0; !result && i < count; i++) {
+		result = campaign_find_run(campaign->experiment, names[i], &index, err);
+		named[index] = true;
+	}
+	for (size_t i = 0; !result && i < runs; i++)
+		if (!campaign->tasks[i].failed_before || (count && !named[i]))
+			campaign->tasks[i].state = TASK_LEFT;
+	free(named);
+	return result;
+}
+
+int campaign_cancel(const struct experiment *experiment, struct error *err)
+{
+	char stamp[CLOCK_STAMP_SIZE], host[BUILD_HOST_SIZE],
+		text[CLOCK_STAMP_SIZE + BUILD_HOST_SIZE + 64];
+	int length = snprintf(text, sizeof text, "cancelled at %s by process %ld on %s\n",
+		clock_stamp(stamp), (long)getpid(), build_host(host));
+
+	return file_replace(&(struct file_place){.folder = experiment->folder, .name = CAMPAIGN_CANCEL},
+		&(struct file_part){text, (size_t)length}, 1, err);
 }
 
 void campaign_log_end(const struct experiment_run *run, int lines, struct text *out)

@@ -1,19 +1,15 @@
 #include "campaign/expand.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "campaign/axis.h"
 #include "campaign/reader.h"
+#include "campaign/run_key.h"
 #include "campaign/setting.h"
 #include "talus/text.h"
-
-/* The values of one key in an entry of `runs`. */
-struct axis {
-	const char *key;
-	const struct node *values; /* [count] */
-	size_t count, chosen;
-};
 
 enum { LAYERS = 4 }; /* of settings: of the file, of the run, of the command line, of the caller */
 
@@ -84,8 +80,8 @@ static int parse(const struct experiment *experiment, const struct setting_list 
 	int result = overlay_write(&overlay, err);
 
 	if (!result)
-		result = config_parse(config, experiment->base_text, experiment->base_length,
-			experiment->base, (const char *const *)overlay.texts, overlay.count, err);
+		result = config_from_node(config, experiment->base_root, experiment->base,
+			(const char *const *)overlay.texts, overlay.count, err);
 	if (result && overlay.texts && err->code == EX_DATAERR)
 		cite_place(&overlay, experiment, err);
 	overlay_clean(&overlay);
@@ -98,23 +94,13 @@ int experiment_vary(const struct experiment *experiment, const struct experiment
 	return parse(experiment, &run->settings, more, config, err);
 }
 
-static size_t find_hash(const struct experiment *experiment, const char *hash, int repeat)
-{
-	size_t i = 0;
-
-	while (i < experiment->run_count &&
-		   (strcmp(experiment->runs[i].hash, hash) != 0 || experiment->runs[i].repeat != repeat))
-		i++;
-	return i;
-}
-
 int experiment_find(const struct experiment *experiment, const struct config *config, int repeat,
 	size_t *index, struct error *err)
 {
 	char hash[CONFIG_HASH_SIZE];
 
 	TRY(config_hash(config, hash, err));
-	*index = find_hash(experiment, hash, repeat);
+	*index = run_key_find(experiment, hash, repeat);
 	return 0;
 }
 
@@ -123,98 +109,146 @@ static int too_many(const struct reader *reader, const struct node *node)
 	return reader_fail(reader, node, "an experiment has at most %d runs", EXPERIMENT_RUNS_MAX);
 }
 
-/* Append a run with these settings, which it takes over; a run that is there already is dropped. */
-static int add_run(
-	const struct reader *reader, struct experiment *experiment, struct setting_list *settings)
-{
-	struct experiment_run run = {.settings = *settings, .repeat = 1};
-	const struct setting_list none = {0};
-	struct experiment_run *runs;
+/* The hash of a run, on the way to finding those that are there already. */
+struct seen {
+	uint64_t *hashes; /* [capacity], a power of two; 0: free */
+	size_t count, capacity;
+};
 
-	*settings = (struct setting_list){0};
-	if (parse(experiment, &run.settings, &none, &run.config, reader->err) ||
-		config_hash(&run.config, run.hash, reader->err))
+static int seen_grow(struct seen *seen, struct error *err)
+{
+	struct seen larger = {.capacity = seen->capacity ? 2 * seen->capacity : 64};
+
+	larger.hashes = calloc(larger.capacity, sizeof *larger.hashes);
+	if (!larger.hashes) {
+		error_memory(err, larger.capacity * sizeof *larger.hashes);
+		return -1;
+	}
+	for (size_t i = 0; i < seen->capacity; i++) {
+		size_t at = seen->hashes[i] & (larger.capacity - 1);
+
+		while (seen->hashes[i] && larger.hashes[at])
+			at = (at + 1) & (larger.capacity - 1);
+		if (seen->hashes[i])
+			larger.hashes[at] = seen->hashes[i];
+	}
+	larger.count = seen->count;
+	free(seen->hashes);
+	*seen = larger;
+	return 0;
+}
+
+/* Note a hash; `*again`: it was noted before. */
+static int seen_add(struct seen *seen, const char *hash, bool *again, struct error *err)
+{
+	uint64_t value = strtoull(hash, NULL, 16) | 1; /* 0 means free; nobody misses a bit of 64 */
+	size_t at;
+
+	if (!seen->hashes || 2 * seen->count >= seen->capacity)
+		TRY(seen_grow(seen, err));
+	at = value & (seen->capacity - 1);
+	while (seen->hashes[at] && seen->hashes[at] != value)
+		at = (at + 1) & (seen->capacity - 1);
+	*again = seen->hashes[at] == value;
+	seen->count += !*again;
+	seen->hashes[at] = value;
+	return 0;
+}
+
+struct expansion {
+	const struct reader *reader;
+	struct experiment *experiment;
+	struct seen seen;
+	size_t capacity; /* of experiment->runs */
+};
+
+/* Append this run, whose settings it takes over; one that is there already is dropped. */
+static int add_run(struct expansion *expansion, struct experiment_run *run)
+{
+	struct experiment *experiment = expansion->experiment;
+	struct error *err = expansion->reader->err;
+	const struct setting_list none = {0};
+	bool again = false;
+
+	if (parse(experiment, &run->settings, &none, &run->config, err) ||
+		config_hash(&run->config, run->hash, err) ||
+		seen_add(&expansion->seen, run->hash, &again, err))
 		goto refused;
-	if (find_hash(experiment, run.hash, 1) < experiment->run_count) {
-		setting_list_clean(&run.settings);
+	if (again) {
+		setting_list_clean(&run->settings);
 		return 0;
 	}
-	runs = realloc(experiment->runs, (experiment->run_count + 1) * sizeof *runs);
-	if (!runs) {
-		error_memory(reader->err, (experiment->run_count + 1) * sizeof *runs);
-		goto refused;
+	if (experiment->run_count == expansion->capacity) {
+		size_t capacity = expansion->capacity ? 2 * expansion->capacity : 16;
+		struct experiment_run *runs = realloc(experiment->runs, capacity * sizeof *runs);
+
+		if (!runs) {
+			error_memory(err, capacity * sizeof *runs);
+			goto refused;
+		}
+		experiment->runs = runs;
+		expansion->capacity = capacity;
 	}
-	experiment->runs = runs;
-	runs[experiment->run_count++] = run;
+	experiment->runs[experiment->run_count++] = *run;
 	return 0;
 refused:
-	setting_list_clean(&run.settings);
+	setting_list_clean(&run->settings);
 	return -1;
 }
 
 /* The next choice of values, the last axis fastest; false after the last. */
-static bool advance(struct axis *axes, size_t count)
+static bool advance(struct axis_list *axes)
 {
-	while (count-- > 0) {
-		if (++axes[count].chosen < axes[count].count)
+	for (size_t i = axes->count; i-- > 0;) {
+		struct axis *axis = &axes->items[i];
+
+		if (++axis->chosen < axis->count)
 			return true;
-		axes[count].chosen = 0;
+		axis->chosen = 0;
 	}
 	return false;
 }
 
-static int add_product(const struct reader *reader, struct experiment *experiment,
-	const struct node *entry, struct axis *axes, size_t count)
+static int choose(const struct axis_list *axes, struct experiment_run *run, struct error *err)
 {
-	do {
-		struct setting_list settings = {0};
+	for (size_t i = 0; i < axes->count; i++) {
+		const struct axis *axis = &axes->items[i];
+		const struct node *values = axis->values + axis->chosen * axis->width;
 
-		if (experiment->run_count >= EXPERIMENT_RUNS_MAX)
-			return too_many(reader, entry);
-		for (size_t i = 0; i < count; i++)
-			if (setting_list_add(
-					&settings, axes[i].key, &axes[i].values[axes[i].chosen], reader->err)) {
-				setting_list_clean(&settings);
-				return -1;
-			}
-		TRY(add_run(reader, experiment, &settings));
-	} while (advance(axes, count));
+		if (axis->sampled)
+			run->point = (int)axis->chosen + 1;
+		for (size_t k = 0; k < axis->width; k++)
+			TRY(setting_list_add(&run->settings, axis->leaves[k].key, &values[k], err));
+	}
 	return 0;
 }
 
-static int add_entry(
-	const struct reader *reader, struct experiment *experiment, const struct node *entry)
+static int add_entry(struct expansion *expansion, const struct node *entry)
 {
-	struct leaf_list leaves = {0};
-	struct axis *axes = NULL;
+	const struct reader *reader = expansion->reader;
+	struct axis_list axes;
 	double product = 1; /* no overflow */
-	int result = -1;
+	int result = axis_list_read(reader, entry, &axes);
 
-	if (reader_leaves(reader, entry, &leaves))
-		goto done;
-	axes = calloc(leaves.count + 1, sizeof *axes);
-	if (!axes) {
-		error_memory(reader->err, (leaves.count + 1) * sizeof *axes);
-		goto done;
-	}
-	for (size_t i = 0; i < leaves.count; i++) {
-		const struct node *node = leaves.items[i].node;
-		bool list = node->kind == NODE_SEQUENCE;
+	for (size_t i = 0; i < axes.count; i++)
+		product *= (double)axes.items[i].count;
+	if (!result && product > EXPERIMENT_RUNS_MAX)
+		result = too_many(reader, entry);
+	while (!result) {
+		struct experiment_run run = {.repeat = 1};
 
-		axes[i] = (struct axis){
-			leaves.items[i].key, list ? node->items : node, list ? node->count : 1, 0};
-		if (!axes[i].count) {
-			reader_fail(reader, node, "an empty list asks for no run at all");
-			goto done;
-		}
-		product *= (double)axes[i].count;
+		if (expansion->experiment->run_count >= EXPERIMENT_RUNS_MAX)
+			result = too_many(reader, entry);
+		else if (choose(&axes, &run, reader->err) == 0)
+			result = add_run(expansion, &run);
+		else
+			result = -1;
+		if (result)
+			setting_list_clean(&run.settings);
+		if (!advance(&axes))
+			break;
 	}
-	result = product > EXPERIMENT_RUNS_MAX
-				 ? too_many(reader, entry)
-				 : add_product(reader, experiment, entry, axes, leaves.count);
-done:
-	free(axes);
-	reader_leaves_clean(&leaves);
+	axis_list_clean(&axes);
 	return result;
 }
 
@@ -258,12 +292,16 @@ static int add_repeats(const struct reader *reader, struct experiment *experimen
 int experiment_expand(struct experiment *experiment, const struct node *runs, struct error *err)
 {
 	const struct reader reader = {experiment->path, err};
-	struct setting_list none = {0};
+	struct expansion expansion = {&reader, experiment, {0}, 0};
+	struct experiment_run base = {.repeat = 1};
+	int result = 0;
 
-	for (size_t i = 0; runs && i < runs->count; i++)
-		TRY(add_entry(&reader, experiment, &runs->items[i]));
-	if (!experiment->run_count)
-		TRY(add_run(&reader, experiment, &none));
+	for (size_t i = 0; !result && runs && i < runs->count; i++)
+		result = add_entry(&expansion, &runs->items[i]);
+	if (!result && !experiment->run_count)
+		result = add_run(&expansion, &base);
+	free(expansion.seen.hashes);
+	TRY(result);
 	TRY(add_repeats(&reader, experiment));
 	return experiment_name_runs(experiment, err);
 }

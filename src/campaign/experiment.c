@@ -6,7 +6,9 @@
 #include <string.h>
 
 #include "campaign/expand.h"
+#include "campaign/range.h"
 #include "campaign/reader.h"
+#include "campaign/sample.h"
 #include "campaign/setting.h"
 
 /* What the entries of an experiment file fill. */
@@ -106,23 +108,26 @@ static int read_only(const struct reader *reader, const struct node *node, void 
 	return reader_settings(reader, node, &((struct experiment_table *)target)->only);
 }
 
+static const struct reader_key table_keys[] = {
+	{"name", read_table_name, "what `--table` and `published` call it; required"},
+	{"title", read_table_title, "above the table (default: that of the experiment)"},
+	{"rows", read_rows, "a config key, or a list of them, whose values make the rows; required"},
+	{"columns", read_columns, "the same for the columns (default: none)"},
+	{"metric", read_metric, "what the cells show, or a list of that: see the metrics; required"},
+	{"baseline", read_baseline,
+		"config keys and values that make of a run's config that of the run it is timed against"},
+	{"reference", read_reference,
+		"config keys and values that make of a run's config that of the run taken as exact"},
+	{"at", read_at, "profile times of the metrics that are taken at one (default: the end)"},
+	{"only", read_only,
+		"config keys and values: runs without them are left out (default: all runs)"},
+};
+
 static int read_table(
 	const struct reader *reader, const struct node *node, struct experiment_table *table)
 {
-	static const struct reader_key keys[] = {
-		{"name", read_table_name},
-		{"title", read_table_title},
-		{"rows", read_rows},
-		{"columns", read_columns},
-		{"metric", read_metric},
-		{"baseline", read_baseline},
-		{"reference", read_reference},
-		{"at", read_at},
-		{"only", read_only},
-	};
-
 	table->title = "";
-	TRY(reader_keys(reader, node, keys, sizeof keys / sizeof *keys, table));
+	TRY(reader_keys(reader, node, table_keys, sizeof table_keys / sizeof *table_keys, table));
 	if (!table->name.text)
 		return reader_fail(reader, node, "this table lacks its 'name'");
 	if (!table->rows.count)
@@ -181,57 +186,80 @@ static int share_published(const struct reader *reader, struct experiment *exper
 	return 0;
 }
 
+static const struct reader_key form_keys[] = {
+	{"title", read_title, "one line, above the tables"},
+	{"source", read_source, "what is reproduced, such as P1 Table 4"},
+	{"base", read_base, "path of the config that all runs share, relative to this file; required"},
+	{"set", read_set, "config keys and values for all runs, before those of `runs`"},
+	{"runs", read_runs,
+		"a list of entries, each the product of its axes; a run that two entries ask for is one "
+		"(default: one run of the base)"},
+	{"repeat", read_repeat, "how often each run is run, 1 to 1000 (default: 1)"},
+	{"timing", read_timing,
+		"true: one run at a time and in the order of the file, for CPU times (default: false)"},
+	{"tables", read_tables, "a list of tables, see below"},
+	{"published", read_published,
+		"per name of a table, its published values: a list of rows, null where blank"},
+};
+
+void experiment_reference(struct text *out)
+{
+	static const struct reader_key axes[] = {
+		{"KEY", NULL,
+			"a config key with a value, a list of values, or a range; a value that is a list "
+			"stands "
+			"in a list"},
+		{"zip", NULL, "config keys whose lists or ranges, of one length, go in step: one axis"},
+		{"sample", NULL, "a design that draws the ranges without `steps` of this entry: one axis"},
+	};
+
+	reader_reference(out, "An experiment", form_keys, sizeof form_keys / sizeof *form_keys);
+	reader_reference(out, "An entry of runs", axes, sizeof axes / sizeof *axes);
+	reader_reference(out, "A range", range_keys, RANGE_KEYS);
+	reader_reference(out, "A sample", sample_keys, SAMPLE_KEYS);
+	reader_reference(out, "A table", table_keys, sizeof table_keys / sizeof *table_keys);
+}
+
 static int read_form(const struct reader *reader, struct form *form)
 {
-	static const struct reader_key keys[] = {
-		{"title", read_title},
-		{"source", read_source},
-		{"base", read_base},
-		{"set", read_set},
-		{"runs", read_runs},
-		{"repeat", read_repeat},
-		{"timing", read_timing},
-		{"tables", read_tables},
-		{"published", read_published},
-	};
 	struct experiment *experiment = form->experiment;
+	const struct node *root = experiment->root;
 
-	TRY(reader_keys(reader, experiment->root, keys, sizeof keys / sizeof *keys, form));
-	if (!form->base)
-		return reader_fail(reader, experiment->root, "the experiment lacks its 'base' config");
+	if (root->kind == NODE_MAPPING && root->count && !node_find(root, "base") &&
+		config_is_key(root->items[0].key)) {
+		reader_fail(reader, root, "this is a config, not an experiment; `talus run %s` runs it",
+			reader->path);
+		return -1;
+	}
+	TRY(reader_keys(
+		reader, experiment->root, form_keys, sizeof form_keys / sizeof *form_keys, form));
+	if (!form->base) {
+		reader_fail(reader, experiment->root, "the experiment lacks its 'base' config");
+		return -1;
+	}
 	return share_published(reader, experiment);
 }
 
-/* The base config's text; its path is relative to the experiment's. */
+/* The base config; its path is relative to the experiment's. */
 static int load_base(
 	const struct reader *reader, struct experiment *experiment, const struct node *base)
 {
-	enum { LIMIT = 1 << 20 }; /* what yaml_parse takes */
 	const char *slash = strrchr(experiment->path, '/');
 	int directory = base->text[0] != '/' && slash ? (int)(slash + 1 - experiment->path) : 0;
 	FILE *file;
-	int result = -1;
 
 	if (asprintf(&experiment->base, "%.*s%s", directory, experiment->path, base->text) < 0) {
 		experiment->base = NULL;
 		return error_memory(reader->err, strlen(experiment->path) + strlen(base->text));
 	}
-	experiment->base_text = malloc(LIMIT + 1);
-	if (!experiment->base_text)
-		return error_memory(reader->err, LIMIT + 1);
+	experiment->base_root = calloc(1, sizeof *experiment->base_root);
+	if (!experiment->base_root)
+		return error_memory(reader->err, sizeof *experiment->base_root);
 	file = fopen(experiment->base, "re");
-	if (!file)
+	if (!file) /* told with the place where the experiment names it */
 		return reader_fail(reader, base, "cannot read %s: %s", experiment->base, strerror(errno));
-	errno = 0;
-	experiment->base_length = fread(experiment->base_text, 1, LIMIT + 1, file);
-	if (ferror(file))
-		reader_fail(reader, base, "cannot read %s: %s", experiment->base, strerror(errno));
-	else if (experiment->base_length > LIMIT)
-		reader_fail(reader, base, "%s is larger than 1 MiB", experiment->base);
-	else
-		result = 0;
 	(void)fclose(file);
-	return result;
+	return yaml_load(experiment->base_root, experiment->base, reader->err);
 }
 
 static int keep_overrides(
@@ -315,7 +343,10 @@ void experiment_clean(struct experiment *experiment)
 	free(experiment->path);
 	free(experiment->folder);
 	free(experiment->base);
-	free(experiment->base_text);
+	if (experiment->base_root)
+		node_clean(experiment->base_root);
+	free(experiment->base_root);
+	free(experiment->keys);
 	setting_list_clean(&experiment->set);
 	setting_list_clean(&experiment->overrides);
 	if (experiment->root)

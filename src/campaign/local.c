@@ -2,8 +2,10 @@
 
 #include <errno.h>
 #include <signal.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 
 #include "base/clock.h"
@@ -14,7 +16,10 @@ struct pool {
 	struct campaign *campaign;
 	sigset_t signals, before; /* blocked while the pool works, and what was blocked before it */
 	struct text timing;       /* lock file of timing experiments; empty: none is needed */
-	double looked;            /* when the reports were last read, s */
+	struct task **order;      /* [runs], in which they are started */
+	struct text cancel;       /* path of the file that tells to stop, and what it was at first */
+	struct stat cancelled;
+	double looked; /* when the reports were last read, s */
 };
 
 static void tell_end(const struct pool *pool, const struct task *task)
@@ -41,9 +46,25 @@ static void reap(struct pool *pool)
 	for (size_t i = 0; i < task_count(pool); i++) {
 		struct task *task = &pool->campaign->tasks[i];
 
-		if (task->state == TASK_RUNNING && task_reap(pool->campaign, task) && is_over(task))
+		if (task->state != TASK_RUNNING || !task_reap(pool->campaign, task))
+			continue;
+		if (task->state == TASK_COMPLETE)
+			campaign_calibrate(pool->campaign);
+		if (is_over(task) || task->state == TASK_WAITING)
 			tell_end(pool, task);
 	}
+}
+
+/* The failed runs of this command. */
+static void count_failures(struct pool *pool)
+{
+	struct campaign *campaign = pool->campaign;
+	int failures = 0;
+
+	for (size_t i = 0; i < task_count(pool); i++)
+		failures += campaign->tasks[i].state == TASK_FAILED && !campaign->tasks[i].skipped;
+	if (campaign->options.max_failures && failures >= campaign->options.max_failures)
+		campaign->gave_up = true;
 }
 
 /* The lock under which timed runs take turns, over all campaigns in this folder. */
@@ -71,6 +92,17 @@ static void fail_start(struct pool *pool, struct task *task, struct error *err)
 	tell_end(pool, task);
 }
 
+/* A run that goes on from another waits for that one. */
+static bool is_ready(const struct pool *pool, const struct task *task)
+{
+	const struct task *before =
+		task->before == SIZE_MAX ? NULL : &pool->campaign->tasks[task->before];
+
+	return !before || task->report.state != RUN_STATE_PENDING ||
+		   (before->state != TASK_WAITING && before->state != TASK_RUNNING &&
+			   before->state != TASK_ELSEWHERE);
+}
+
 /* Start one waiting task. False: there is none, or now is not the time. */
 static bool start_next(struct pool *pool, struct error *err)
 {
@@ -78,9 +110,9 @@ static bool start_next(struct pool *pool, struct error *err)
 	bool started = false;
 
 	for (size_t i = 0; !started && i < task_count(pool); i++) {
-		struct task *task = &pool->campaign->tasks[i];
+		struct task *task = pool->order[i];
 
-		if (task->state != TASK_WAITING)
+		if (task->state != TASK_WAITING || !is_ready(pool, task))
 			continue;
 		if (!take_turn(pool, &timing, err))
 			return false;
@@ -103,10 +135,30 @@ static void start(struct pool *pool, struct error *err)
 {
 	const struct campaign *campaign = pool->campaign;
 
-	while (!campaign->stopping && !err->code &&
+	while (!campaign->stopping && !campaign->gave_up && !err->code &&
 		   campaign_count(campaign, TASK_RUNNING) < (size_t)campaign->options.jobs &&
 		   start_next(pool, err))
 		;
+}
+
+static void stop(struct pool *pool)
+{
+	pool->campaign->stopping = true;
+	for (size_t i = 0; i < task_count(pool); i++)
+		if (pool->campaign->tasks[i].state == TASK_RUNNING)
+			(void)kill(pool->campaign->tasks[i].pid, SIGTERM);
+}
+
+/* Has somebody asked all campaigns here to stop, since this one began? The file is compared with what it
+ * was, not its time with ours: no clock is trusted. */
+static bool is_cancelled(const struct pool *pool)
+{
+	struct stat now = {0};
+
+	(void)stat(text_string(&pool->cancel), &now);
+	return now.st_ino && (now.st_ino != pool->cancelled.st_ino ||
+							 now.st_mtim.tv_sec != pool->cancelled.st_mtim.tv_sec ||
+							 now.st_mtim.tv_nsec != pool->cancelled.st_mtim.tv_nsec);
 }
 
 /* About twice a second: how far the children are, and what became of the runs of others. */
@@ -117,24 +169,20 @@ static void look(struct pool *pool)
 	if (clock_wall() - pool->looked < 0.5)
 		return;
 	pool->looked = clock_wall();
+	if (!pool->campaign->stopping && is_cancelled(pool))
+		stop(pool);
 	for (size_t i = 0; i < task_count(pool); i++) {
 		struct task *task = &pool->campaign->tasks[i];
 
 		if (task->state != TASK_RUNNING && task->state != TASK_ELSEWHERE)
 			continue;
+		task_watch_time(pool->campaign, task);
 		task_look(pool->campaign, task);
 		if (is_over(task))
 			tell_end(pool, task);
 	}
 	if (watch->tick)
 		watch->tick(watch->context, pool->campaign);
-}
-
-static void forward(const struct pool *pool, int number)
-{
-	for (size_t i = 0; i < task_count(pool); i++)
-		if (pool->campaign->tasks[i].state == TASK_RUNNING)
-			(void)kill(pool->campaign->tasks[i].pid, number);
 }
 
 /* Wait for a child, a signal, or the next look. False: leave at once. */
@@ -147,8 +195,7 @@ static bool wait_a_while(struct pool *pool)
 		return true;
 	if (number == SIGINT && pool->campaign->stopping)
 		return false;
-	pool->campaign->stopping = true;
-	forward(pool, SIGTERM);
+	stop(pool);
 	return true;
 }
 
@@ -158,8 +205,58 @@ static bool is_work_left(const struct pool *pool, const struct error *err)
 
 	if (campaign_count(campaign, TASK_RUNNING))
 		return true;
-	return !campaign->stopping && !err->code &&
+	return !campaign->stopping && !campaign->gave_up && !err->code &&
 		   (campaign_count(campaign, TASK_WAITING) || campaign_count(campaign, TASK_ELSEWHERE));
+}
+
+/* A task by what is left of it and of all that waits for it. */
+struct turn {
+	struct task *task;
+	double left;
+};
+
+/* The longest expected first, so that none is left alone at the end; of equals, the first. */
+static int compare_turns(const void *a, const void *b)
+{
+	const struct turn *x = a, *y = b;
+
+	if (x->left != y->left)
+		return x->left < y->left ? 1 : -1;
+	return (x->task > y->task) - (x->task < y->task);
+}
+
+static int make_order(struct pool *pool, struct error *err)
+{
+	struct campaign *campaign = pool->campaign;
+	size_t count = task_count(pool);
+	struct turn *turns = calloc(count, sizeof *turns);
+
+	pool->order = calloc(count, sizeof(struct task *));
+	if (!pool->order || !turns) {
+		free(turns);
+		return error_memory(err, count * sizeof *turns);
+	}
+	for (size_t i = 0; i < count; i++)
+		turns[i].task = &campaign->tasks[i];
+	for (size_t i = 0; i < count; i++) {
+		double left = campaign_task_left(campaign, &campaign->tasks[i]);
+
+		for (size_t k = i; k != SIZE_MAX; k = campaign->tasks[k].before)
+			turns[k].left = left > turns[k].left ? left : turns[k].left;
+	}
+	if (!campaign->options.in_order && !campaign->experiment->timing)
+		qsort(turns, count, sizeof *turns, compare_turns);
+	for (size_t i = 0; i < count; i++)
+		pool->order[i] = turns[i].task;
+	free(turns);
+	return 0;
+}
+
+static void pool_clean(struct pool *pool)
+{
+	free(pool->order);
+	text_clean(&pool->timing);
+	text_clean(&pool->cancel);
 }
 
 static int pool_init(struct pool *pool, struct campaign *campaign, struct error *err)
@@ -174,6 +271,9 @@ static int pool_init(struct pool *pool, struct campaign *campaign, struct error 
 	(void)setenv("OMP_WAIT_POLICY", "passive", false);
 	if (campaign->experiment->timing)
 		TRY(file_path(&pool->timing, campaign->experiment->folder, "timing.lock", err));
+	TRY(file_path(&pool->cancel, campaign->experiment->folder, CAMPAIGN_CANCEL, err));
+	(void)stat(text_string(&pool->cancel), &pool->cancelled);
+	TRY(make_order(pool, err));
 	if (sigprocmask(SIG_BLOCK, &pool->signals, &pool->before) != 0)
 		return error_set(err, EX_SOFTWARE, "cannot block signals: %s", strerror(errno));
 	return 0;
@@ -184,7 +284,7 @@ int local_execute(struct campaign *campaign, struct error *err)
 	struct pool pool;
 
 	if (pool_init(&pool, campaign, err)) {
-		text_clean(&pool.timing);
+		pool_clean(&pool);
 		return -1;
 	}
 	for (bool stay = true; stay && is_work_left(&pool, err);) {
@@ -192,9 +292,10 @@ int local_execute(struct campaign *campaign, struct error *err)
 		if (campaign_count(campaign, TASK_RUNNING) || is_work_left(&pool, err))
 			stay = wait_a_while(&pool);
 		reap(&pool);
+		count_failures(&pool);
 		look(&pool);
 	}
 	(void)sigprocmask(SIG_SETMASK, &pool.before, NULL);
-	text_clean(&pool.timing);
+	pool_clean(&pool);
 	return err->code ? -1 : 0;
 }

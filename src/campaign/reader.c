@@ -68,6 +68,14 @@ int reader_keys(const struct reader *reader, const struct node *node, const stru
 	return 0;
 }
 
+void reader_reference(
+	struct text *out, const char *title, const struct reader_key *keys, size_t count)
+{
+	text_addf(out, "\n## %s\n\n| key | meaning |\n| --- | --- |\n", title);
+	for (size_t i = 0; i < count; i++)
+		text_addf(out, "| `%s` | %s |\n", keys[i].name, keys[i].meaning);
+}
+
 int reader_text(const struct reader *reader, const struct node *node, const char **out)
 {
 	if (node->kind != NODE_SCALAR || !node->text[0])
@@ -90,6 +98,25 @@ int reader_integer(const struct reader *reader, const struct node *node, int min
 		return reader_fail(
 			reader, node, "%s is not a whole number from %d to %d", excerpt(node, shown), min, max);
 	return 0;
+}
+
+int reader_choice(
+	const struct reader *reader, const struct node *node, const char *const *choices, int *out)
+{
+	struct text known = {0};
+	char shown[EXCERPT];
+	int result = 0, i = 0;
+
+	while (choices[i] && (node->kind != NODE_SCALAR || strcmp(node->text, choices[i]) != 0)) {
+		text_addf(&known, "%s%s", i ? ", " : "", choices[i]);
+		i++;
+	}
+	*out = i;
+	if (!choices[i])
+		result = reader_fail(
+			reader, node, "%s is not one of %s", excerpt(node, shown), text_string(&known));
+	text_clean(&known);
+	return result;
 }
 
 int reader_bool(const struct reader *reader, const struct node *node, bool *out)
@@ -175,7 +202,7 @@ static int add_leaves(
 
 		if (asprintf(&key, "%s%s%s", prefix, *prefix ? "." : "", item->key) < 0)
 			return error_memory(reader->err, strlen(prefix) + strlen(item->key));
-		if (item->kind != NODE_MAPPING) {
+		if (item->kind != NODE_MAPPING || config_is_key(key)) {
 			TRY(leaf_add(reader, out, key, item));
 			continue;
 		}
@@ -208,9 +235,16 @@ int reader_settings(const struct reader *reader, const struct node *node, struct
 
 	if (reader_leaves(reader, node, &leaves))
 		goto done;
-	for (size_t i = 0; i < leaves.count; i++)
-		if (setting_list_add(out, leaves.items[i].key, leaves.items[i].node, reader->err))
+	for (size_t i = 0; i < leaves.count; i++) {
+		const struct leaf *leaf = &leaves.items[i];
+
+		if (leaf->node->kind == NODE_MAPPING) {
+			reader_fail(reader, leaf->node, "one value is wanted here; ranges belong into runs");
 			goto done;
+		}
+		if (setting_list_add(out, leaf->key, leaf->node, reader->err))
+			goto done;
+	}
 	result = 0;
 done:
 	reader_leaves_clean(&leaves);

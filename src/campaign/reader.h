@@ -14,6 +14,7 @@ struct reader {
 struct reader_key {
 	const char *name;
 	int (*read)(const struct reader *reader, const struct node *node, void *target);
+	const char *meaning; /* for the reference */
 };
 
 /* EX_DATAERR at the place of a node. Returns -1. */
@@ -24,9 +25,16 @@ int reader_fail(const struct reader *reader, const struct node *node, const char
 int reader_keys(const struct reader *reader, const struct node *node, const struct reader_key *keys,
 	size_t count, void *target);
 
+/* The keys of a mapping in Markdown, under this title. */
+void reader_reference(
+	struct text *out, const char *title, const struct reader_key *keys, size_t count);
+
 int reader_text(const struct reader *reader, const struct node *node, const char **out);
 int reader_integer(
 	const struct reader *reader, const struct node *node, int min, int max, int *out);
+/* Index of the text in `choices`, which NULL closes. */
+int reader_choice(
+	const struct reader *reader, const struct node *node, const char *const *choices, int *out);
 int reader_bool(const struct reader *reader, const struct node *node, bool *out);
 
 /* One scalar, or a list of them. */
@@ -35,7 +43,7 @@ int reader_terms(const struct reader *reader, const struct node *node, struct te
 /* A leaf of nested mappings with its dotted key. */
 struct leaf {
 	char *key;
-	const struct node *node; /* a scalar or a sequence */
+	const struct node *node; /* a scalar, a sequence, or a mapping that says how values are made */
 };
 
 struct leaf_list {
@@ -43,6 +51,7 @@ struct leaf_list {
 	size_t count;
 };
 
+/* Add the leaves of a mapping to `out`. Refused: keys that no config has, or that `out` has already. */
 int reader_leaves(const struct reader *reader, const struct node *node, struct leaf_list *out);
 void reader_leaves_clean(struct leaf_list *list);
 

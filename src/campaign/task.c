@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,9 +10,25 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "base/file.h"
 
-enum { REFUSALS_MAX = 2 };
+enum {
+	REFUSALS_MAX = 2,
+	GRACE = 30 /* s, for the checkpoint of a run whose time is over */
+};
+
+/* Is a run that failed, or was ended by what nobody asked for, to be tried again? The failures of the
+ * run itself are kept in its folder, so that the limit holds over commands; a crash is known only here. */
+static bool may_try_again(const struct campaign *campaign, const struct task *task)
+{
+	int failures = task->report.failures > 0 ? task->report.failures : 1;
+	int tries = task->starts - !task->failed_before;
+
+	if (task->report.state == RUN_STATE_FAILED && !campaign->options.anew)
+		return failures <= campaign->options.retry;
+	return tries < campaign->options.retry;
+}
 
 void task_look(const struct campaign *campaign, struct task *task)
 {
@@ -27,7 +44,7 @@ void task_look(const struct campaign *campaign, struct task *task)
 		task->state = TASK_COMPLETE;
 		break;
 	case RUN_STATE_FAILED:
-		task->state = campaign->options.retry ? TASK_WAITING : TASK_FAILED;
+		task->state = may_try_again(campaign, task) ? TASK_WAITING : TASK_FAILED;
 		break;
 	case RUN_STATE_PENDING:
 	case RUN_STATE_INTERRUPTED:
@@ -97,6 +114,18 @@ static void become_run(const struct campaign *campaign, char *const *arguments, 
 	_exit(EX_UNAVAILABLE);
 }
 
+const char *task_from(const struct campaign *campaign, const struct task *task)
+{
+	const struct task *before = task->before == SIZE_MAX ? NULL : &campaign->tasks[task->before];
+
+	if (task->report.state != RUN_STATE_PENDING)
+		return NULL;
+	if (before && (before->report.state == RUN_STATE_COMPLETE ||
+					  before->report.state == RUN_STATE_INTERRUPTED))
+		return before->run->folder;
+	return task->from;
+}
+
 int task_start(const struct campaign *campaign, struct task *task, const sigset_t *mask,
 	const struct lock *timing, struct error *err)
 {
@@ -115,13 +144,23 @@ int task_start(const struct campaign *campaign, struct task *task, const sigset_
 		goto done;
 	}
 	if (task->pid == 0) {
-		char *arguments[] = {"talus", "run", config.data, "-o", task->run->folder, "--quiet",
-			campaign->options.retry ? "--retry" : NULL, NULL};
+		char *arguments[] = {"talus", "run", config.data, "-o", task->run->folder, "--quiet", NULL,
+			NULL, NULL, NULL};
+		char **next = arguments + 6;
 
+		if (task->report.state == RUN_STATE_FAILED)
+			*next++ = "--retry";
+		if (task_from(campaign, task)) {
+			*next++ = "--continue-from";
+			*next++ = (char *)task_from(campaign, task);
+		}
 		become_run(campaign, arguments, log.data, mask, timing, parent);
 	}
 	(void)setpgid(task->pid, task->pid); /* whoever of the two comes first */
 	task->state = TASK_RUNNING;
+	task->starts++;
+	task->started = clock_wall();
+	task->timed_out = false;
 	result = 0;
 done:
 	text_clean(&config);
@@ -133,6 +172,33 @@ static bool is_stop(int number)
 {
 	return number == SIGTERM || number == SIGINT || number == SIGKILL || number == SIGHUP ||
 		   number == SIGUSR1;
+}
+
+/* A line of ours in the run's log, for what its own process cannot know. */
+static void task_log(const struct task *task, const char *message)
+{
+	struct text path = {0}, line = {0};
+	struct error ignored = {0};
+	char stamp[CLOCK_STAMP_SIZE];
+
+	text_addf(&line, "%s campaign: %s\n", clock_stamp(stamp), message);
+	if (file_path(&path, task->run->folder, "run.log", &ignored) == 0 && !line.failed)
+		(void)file_append(text_string(&path), text_string(&line), &ignored);
+	text_clean(&path);
+	text_clean(&line);
+}
+
+void task_watch_time(const struct campaign *campaign, struct task *task)
+{
+	double passed = clock_wall() - task->started, timeout = campaign->options.timeout;
+
+	if (task->state != TASK_RUNNING || timeout <= 0 || passed < timeout)
+		return;
+	if (!task->timed_out)
+		(void)kill(task->pid, SIGTERM);
+	else if (passed >= timeout + GRACE)
+		(void)kill(task->pid, SIGKILL);
+	task->timed_out = true;
 }
 
 bool task_reap(const struct campaign *campaign, struct task *task)
@@ -152,10 +218,23 @@ bool task_reap(const struct campaign *campaign, struct task *task)
 		task->state = TASK_INTERRUPTED;
 	else
 		task->state = TASK_FAILED;
+	if (task->timed_out) {
+		char span[CLOCK_SPAN_SIZE];
+
+		(void)snprintf(task->report.reason, sizeof task->report.reason,
+			"stopped after the --timeout of %s", clock_span(campaign->options.timeout, span));
+		task_log(task, task->report.reason);
+	}
+	if (task->state != TASK_COMPLETE && !campaign->stopping &&
+		(task->state == TASK_FAILED || task->timed_out || WIFSIGNALED(status)) &&
+		may_try_again(campaign, task)) {
+		task->state = TASK_WAITING;
+		return true;
+	}
 	/* 75 without our asking: as a rule another process holds the run's lock. It may have let go by
 	 * now, so look again later; a run that is refused time after time is left as it is. */
 	if (task->state == TASK_INTERRUPTED && !WIFSIGNALED(status) && !campaign->stopping &&
-		task->refusals++ < REFUSALS_MAX)
+		!task->timed_out && task->refusals++ < REFUSALS_MAX)
 		task->state = TASK_ELSEWHERE;
 	return true;
 }

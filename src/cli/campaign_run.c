@@ -1,5 +1,6 @@
 /* talus campaign run: what is told on the way and at the end. */
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -34,10 +35,32 @@ static const char *task_word(const struct task *task)
 	case TASK_RUNNING:
 	case TASK_ELSEWHERE:
 		return "running";
+	case TASK_LEFT:
+		return "left";
 	case TASK_WAITING:
 		break;
 	}
 	return "waiting";
+}
+
+/* Wall clock to the end, s: by what was done since `began` once that is a good part, before that by the
+ * CPU time that is expected to be left. */
+double campaign_left(const struct campaign *campaign, double began, double done_began)
+{
+	double done, all, left, longest = 0, by_cost, passed = clock_wall() - began;
+	size_t waiting = campaign_count(campaign, TASK_WAITING), going;
+
+	campaign_work(campaign, &done, &all);
+	left = all - done;
+	for (size_t i = 0; i < campaign->experiment->run_count; i++)
+		longest = fmax(longest, campaign_task_left(campaign, &campaign->tasks[i]));
+	going = campaign_count(campaign, TASK_RUNNING) + campaign_count(campaign, TASK_ELSEWHERE);
+	if (going + waiting > (size_t)campaign->options.jobs && going < (size_t)campaign->options.jobs)
+		going = (size_t)campaign->options.jobs;
+	by_cost = fmax(left / (double)(going ? going : 1), longest);
+	if (passed < 5 || done - done_began < 0.1 * left)
+		return by_cost;
+	return fmax(left * passed / (done - done_began), 0);
 }
 
 static void tell_tick(void *context, const struct campaign *campaign)
@@ -50,12 +73,13 @@ static void tell_tick(void *context, const struct campaign *campaign)
 	if (!progress->terminal)
 		return;
 	campaign_work(campaign, &done, &all);
-	left = (all - done) * (clock_wall() - progress->began) / (done - progress->done_began);
+	left = campaign_left(campaign, progress->began, progress->done_began);
 	(void)fprintf(stderr, "\r\033[K%zu/%zu runs, %zu running", count_ended(campaign),
-		campaign->experiment->run_count, campaign_count(campaign, TASK_RUNNING));
+		campaign->experiment->run_count - campaign_count(campaign, TASK_LEFT),
+		campaign_count(campaign, TASK_RUNNING));
 	if (elsewhere)
 		(void)fprintf(stderr, ", %zu elsewhere", elsewhere);
-	(void)fprintf(stderr, ", %.0f %%", all > 0 ? floor(100 * done / all) : 100);
+	(void)fprintf(stderr, ", %.0f %%", all > 0 ? floor(100 * done / all + 1e-9) : 100);
 	if (campaign->stopping)
 		(void)fprintf(stderr, ", stopping");
 	else if (isfinite(left) && left >= 0)
@@ -63,17 +87,38 @@ static void tell_tick(void *context, const struct campaign *campaign)
 	(void)fflush(stderr);
 }
 
+enum { ENDED_SIZE = 80 };
+
+/* "exit code 74", "signal 11: Segmentation fault" */
+static const char *how_ended(const struct task *task, char text[ENDED_SIZE])
+{
+	if (task->code > 128)
+		(void)snprintf(
+			text, ENDED_SIZE, "signal %d: %s", task->code - 128, strsignal(task->code - 128));
+	else
+		(void)snprintf(text, ENDED_SIZE, "exit code %d", task->code);
+	return text;
+}
+
 static void tell_ended(void *context, const struct campaign *campaign, const struct task *task)
 {
 	const struct progress *progress = context;
-	char span[CLOCK_SPAN_SIZE];
+	char span[CLOCK_SPAN_SIZE], text[ENDED_SIZE];
 
+	if (task->state == TASK_WAITING) { /* on a terminal, too: it must not be lost */
+		(void)fprintf(stderr, "%stalus: run %s ended early (%s) and is tried again, %d of %d\n",
+			progress->terminal ? "\r\033[K" : "", task->run->id,
+			*task->report.reason ? task->report.reason : how_ended(task, text), task->starts,
+			campaign->options.retry);
+		return;
+	}
 	if (progress->terminal) {
 		tell_tick(context, campaign);
 		return;
 	}
-	(void)printf("%zu/%zu %s: %s, %s CPU\n", count_ended(campaign), campaign->experiment->run_count,
-		task->run->id, task_word(task), clock_span(task->report.cpu_seconds, span));
+	(void)printf("%zu/%zu %s: %s, %s CPU\n", count_ended(campaign),
+		campaign->experiment->run_count - campaign_count(campaign, TASK_LEFT), task->run->id,
+		task_word(task), clock_span(task->report.cpu_seconds, span));
 	(void)fflush(stdout);
 }
 
@@ -92,12 +137,11 @@ static void print_log(const char *log)
 static void tell_failure(const struct task *task)
 {
 	struct text log = {0};
+	char text[ENDED_SIZE];
 
 	(void)fprintf(stderr, "talus: run %s failed", task->run->id);
-	if (task->code > 128)
-		(void)fprintf(stderr, " (signal %d: %s)", task->code - 128, strsignal(task->code - 128));
-	else if (task->code)
-		(void)fprintf(stderr, " (exit code %d)", task->code);
+	if (task->code)
+		(void)fprintf(stderr, " (%s)", how_ended(task, text));
 	campaign_log_end(task->run, LOG_LINES, &log);
 	if (log.length) {
 		(void)fprintf(stderr, "; the end of %s/run.log:\n", task->run->folder);
@@ -112,14 +156,14 @@ static void tell_counts(const struct campaign *campaign, struct text *out)
 {
 	const struct experiment *experiment = campaign->experiment;
 	size_t ended = count_ended(campaign), failed = campaign_count(campaign, TASK_FAILED);
+	size_t runs = experiment->run_count - campaign_count(campaign, TASK_LEFT);
 
-	text_addf(out, "%zu run%s in %s: %zu complete", experiment->run_count,
-		experiment->run_count == 1 ? "" : "s", experiment->folder,
+	text_addf(out, "%zu run%s in %s: %zu complete", runs, runs == 1 ? "" : "s", experiment->folder,
 		campaign_count(campaign, TASK_COMPLETE));
 	if (failed)
 		text_addf(out, ", %zu failed", failed);
-	if (ended < experiment->run_count)
-		text_addf(out, ", %zu unfinished", experiment->run_count - ended);
+	if (ended < runs)
+		text_addf(out, ", %zu unfinished", runs - ended);
 	text_add(out, "\n");
 }
 
@@ -133,7 +177,13 @@ static int tell_result(const struct campaign *campaign)
 	for (size_t i = 0; i < campaign->experiment->run_count; i++)
 		if (campaign->tasks[i].state == TASK_FAILED)
 			tell_failure(&campaign->tasks[i]);
-	if (code == EX_INTERRUPTED)
+		else if (campaign->tasks[i].timed_out && campaign->tasks[i].state == TASK_INTERRUPTED)
+			(void)fprintf(stderr, "talus: run %s: %s at t = %g s\n", campaign->tasks[i].run->id,
+				campaign->tasks[i].report.reason, campaign->tasks[i].report.time);
+	if (campaign->gave_up)
+		(void)fprintf(stderr, "talus: --max-failures %d is reached: no more runs were started\n",
+			campaign->options.max_failures);
+	else if (code == EX_INTERRUPTED)
 		(void)fprintf(stderr, "talus: stopped; the same command goes on from there\n");
 	return code ? code : printed;
 }
@@ -153,36 +203,59 @@ static int execute(struct campaign *campaign, const struct executor *executor)
 	return result ? command_fail(&err) : tell_result(campaign);
 }
 
-/* What `run` would do with each run. */
+/* What `run` would do with the run. */
+void campaign_describe_plan(
+	const struct campaign *campaign, const struct task *task, struct text *out)
+{
+	const struct run_report *report = &task->report;
+	double end = task->run->config.time.end;
+
+	if (task->state == TASK_COMPLETE)
+		text_add(out, "complete, nothing to do");
+	else if (task->state == TASK_FAILED)
+		text_add(out, "failed, left as it is without --retry");
+	else if (task->state == TASK_ELSEWHERE)
+		text_add(out, "another process works on it");
+	else if (report->state == RUN_STATE_FAILED)
+		text_add(out, "failed, start anew");
+	else if (report->state == RUN_STATE_DAMAGED)
+		text_addf(out, "damaged, refused; move %s away to start anew", task->run->folder);
+	else if (report->state == RUN_STATE_PENDING && task->before != SIZE_MAX)
+		text_addf(out, "go on to %g s from %s, once that is complete", end,
+			campaign->tasks[task->before].run->id);
+	else if (report->state == RUN_STATE_PENDING && task->from)
+		text_addf(out, "go on to %g s from %s", end, task->from);
+	else if (report->state == RUN_STATE_PENDING)
+		text_add(out, "start");
+	else
+		text_addf(out, "resume at %g s of %g s", report->time, end);
+}
+
 static int print_plan(const struct campaign *campaign)
 {
+	size_t runs = campaign->experiment->run_count;
 	struct text out = {0};
+	double done, all;
+	char span[CLOCK_SPAN_SIZE];
 
-	for (size_t i = 0; i < campaign->experiment->run_count; i++) {
+	for (size_t i = 0; i < runs; i++) {
 		const struct task *task = &campaign->tasks[i];
-		const struct run_report *report = &task->report;
 
+		if (task->state == TASK_LEFT)
+			continue;
 		text_addf(&out, "%s: ", task->run->id);
-		if (task->state == TASK_COMPLETE)
-			text_add(&out, "complete, nothing to do\n");
-		else if (task->state == TASK_FAILED)
-			text_add(&out, "failed, left as it is without --retry\n");
-		else if (task->state == TASK_ELSEWHERE)
-			text_add(&out, "another process works on it\n");
-		else if (report->state == RUN_STATE_FAILED)
-			text_add(&out, "failed, start anew\n");
-		else if (report->state == RUN_STATE_PENDING)
-			text_add(&out, "start\n");
-		else
-			text_addf(&out, "resume at %g s of %g s\n", report->time, task->run->config.time.end);
+		campaign_describe_plan(campaign, task, &out);
+		text_add(&out, "\n");
 	}
-	text_addf(
-		&out, "%zu runs, %d at a time\n", campaign->experiment->run_count, campaign->options.jobs);
+	runs -= campaign_count(campaign, TASK_LEFT);
+	campaign_work(campaign, &done, &all);
+	text_addf(&out, "%zu run%s, %d at a time, about %s CPU\n", runs, runs == 1 ? "" : "s",
+		campaign->options.jobs, clock_span(all - done, span));
 	return command_print(&out);
 }
 
-int campaign_run_main(
-	const struct campaign_arguments *arguments, const struct experiment *experiment)
+static int run_campaign(const struct campaign_arguments *arguments,
+	const struct experiment *experiment, const struct campaign_options *options, bool failed_only)
 {
 	const struct executor *executor = executor_find(arguments->executor);
 	struct campaign campaign;
@@ -191,10 +264,75 @@ int campaign_run_main(
 
 	if (!executor)
 		return command_usage("campaign", "--executor %s: there is only local", arguments->executor);
-	if (campaign_create(&campaign, experiment, &arguments->options, &err))
+	if (campaign_create(&campaign, experiment, options, &err) ||
+		(failed_only &&
+			campaign_select_failed(&campaign, arguments->names, arguments->name_count, &err)))
 		code = command_fail(&err);
 	else
 		code = arguments->dry_run ? print_plan(&campaign) : execute(&campaign, executor);
 	campaign_clean(&campaign);
 	return code;
 }
+
+static int run_main(const struct campaign_arguments *arguments, const struct experiment *experiment)
+{
+	return run_campaign(arguments, experiment, &arguments->options, false);
+}
+
+static int retry_main(
+	const struct campaign_arguments *arguments, const struct experiment *experiment)
+{
+	struct campaign_options options = arguments->options;
+
+	options.anew = true;
+	if (!options.retry)
+		options.retry = 1;
+	return run_campaign(arguments, experiment, &options, true);
+}
+
+#define OPTIONS_OF_POOL                                                                            \
+	"  -j, --jobs N          runs at a time; an experiment with `timing: true` makes it 1\n"       \
+	"                        (default: the number of processors)\n"                                \
+	"  -n, --dry-run         print what would be done and change nothing (default: off)\n"         \
+	"  -t, --timeout SPAN    stop a run after so much wall clock, such as 90 s or 2 h, with its\n" \
+	"                        checkpoint written (default: never)\n"                                \
+	"  -m, --max-failures N  start no more runs once so many have failed (default: any number)\n"  \
+	"      --order ORDER     longest: the longest expected run first; given: as in the "           \
+	"experiment,\n"                                                                                \
+	"                        as those with `timing: true` always are (default: longest)\n"         \
+	"  -e, --executor NAME   how runs are executed: local (default: local)\n"
+
+const struct campaign_action campaign_action_run = {
+	.name = "run",
+	.summary = "Bring every run of an experiment to its end, from wherever it stands.",
+	.usage = "[OPTION]... EXPERIMENT",
+	.help =
+		"example: talus campaign run -j 2 experiments/quickstart.yaml\n\n"
+		"options:\n" OPTIONS_OF_POOL
+		"  -r, --retry N         start a run that fails, crashes or times out anew, until it has\n"
+		"                        failed N times and once more; why each attempt ended stays in\n"
+		"                        status.yaml (default: 0)\n" CAMPAIGN_OPTIONS_OF_ALL
+		"Ctrl-C stops all runs with their checkpoints written; the same command goes on from "
+		"there.\nA run that differs from another by a later time.end alone goes on from that "
+		"one.\n\n"
+		"exit: 0 all runs are complete, 1 one failed, 65 bad experiment, 75 stopped and "
+		"resumable\n",
+	.options = "jnrtmeO",
+	.main = run_main,
+};
+
+const struct campaign_action campaign_action_retry = {
+	.name = "retry",
+	.summary = "Start failed runs anew: all of them, or those that are named.",
+	.usage = "[OPTION]... EXPERIMENT [RUN]...",
+	.help =
+		"example: talus campaign retry experiments/quickstart.yaml\n\n"
+		"RUN is a name as `status` prints it, the beginning of one, or digits of its hash.\n\n"
+		"options:\n" OPTIONS_OF_POOL "  -r, --retry N         start each anew up to N times "
+		"(default: 1)\n" CAMPAIGN_OPTIONS_OF_ALL
+		"exit: 0 these runs are complete, 1 one failed again, 65 bad experiment or no such run,\n"
+		"75 stopped and resumable\n",
+	.options = "jnrtmeO",
+	.names = true,
+	.main = retry_main,
+};

@@ -63,7 +63,7 @@ static int check_file(const char *path, const struct check_options *options, boo
 	struct text out = {0};
 
 	if (config_read(&config, path, options->settings.list, options->settings.count, &err) != 0)
-		return command_fail(&err);
+		return command_config_fail(path, &err);
 	if (options->quiet)
 		return 0;
 	if (several)

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "config/yaml.h"
+
 int command_fail(const struct error *err)
 {
 	char message[sizeof err->text + sizeof err->file + 32];
@@ -14,6 +16,22 @@ int command_fail(const struct error *err)
 	(void)fflush(stdout);
 	(void)fprintf(stderr, "talus: %s\n", error_format(err, message, sizeof message));
 	return err->code ? err->code : EX_SOFTWARE;
+}
+
+int command_config_fail(const char *path, const struct error *err)
+{
+	struct error ignored = {0};
+	struct node root = {0};
+	bool experiment = err->code == EX_DATAERR && yaml_load(&root, path, &ignored) == 0 &&
+					  root.kind == NODE_MAPPING && node_find(&root, "base");
+
+	node_clean(&root);
+	if (!experiment)
+		return command_fail(err);
+	(void)fflush(stdout);
+	(void)fprintf(stderr,
+		"talus: %s: is an experiment, not a config; `talus campaign run %s` runs it\n", path, path);
+	return EX_DATAERR;
 }
 
 int command_usage(const char *command, const char *format, ...)

@@ -14,6 +14,9 @@ struct command {
 /* Print "talus: message" to stderr and return the exit code of `err`. */
 int command_fail(const struct error *err);
 
+/* The same for a config at `path` that cannot be read: one that is an experiment is called so. */
+int command_config_fail(const char *path, const struct error *err);
+
 /* Print "talus COMMAND: message" and the way out to stderr; return EX_USAGE. */
 int command_usage(const char *command, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));

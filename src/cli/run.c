@@ -22,11 +22,17 @@ static const char help[] =
 	"  -s, --set KEY=VALUE  override a key of FILE, such as time.cfl=0.5; repeatable\n"
 	"                       (default: none)\n"
 	"  -r, --retry          start a run that has failed anew (default: off)\n"
+	"  -c, --continue-from DIR\n"
+	"                       where the folder has no run yet, go on from the one in DIR, which may\n"
+	"                       differ by an earlier time.end and in nothing else (default: none)\n"
 	"  -n, --no-progress    no progress line on a terminal (default: off)\n"
 	"  -q, --quiet          print nothing but errors and warnings (default: off)\n"
 	"  -h, --help           print this\n\n"
-	"The same command starts a run, resumes it and finds it complete. SIGINT, SIGTERM and SIGUSR1\n"
-	"finish the step and write a checkpoint; a second SIGINT leaves at once.\n\n"
+	"The same command starts a run, resumes it and finds it complete. With a later time.end and\n"
+	"nothing else changed it goes on from what was computed, to the bits of a run that had that "
+	"end\n"
+	"from the start; a finished run then stays as run.end-SECONDS.h5. SIGINT, SIGTERM and\n"
+	"SIGUSR1 finish the step and write a checkpoint; a second SIGINT leaves at once.\n\n"
 	"exit: 0 complete, 1 the simulation failed, 65 bad config or run file, 73 cannot create the\n"
 	"folder, 74 input or output error, 75 stopped or locked: the same command goes on\n";
 
@@ -55,6 +61,7 @@ static int read_options(int argc, char **argv, struct run_command *command)
 		{"output", required_argument, NULL, 'o'},
 		{"set", required_argument, NULL, 's'},
 		{"retry", no_argument, NULL, 'r'},
+		{"continue-from", required_argument, NULL, 'c'},
 		{"no-progress", no_argument, NULL, 'n'},
 		{"quiet", no_argument, NULL, 'q'},
 		{"help", no_argument, NULL, 'h'},
@@ -64,13 +71,15 @@ static int read_options(int argc, char **argv, struct run_command *command)
 	int option;
 
 	command->run.progress = isatty(STDERR_FILENO) == 1;
-	while ((option = getopt_long(argc, argv, ":o:s:rnqh", list, NULL)) != -1) {
+	while ((option = getopt_long(argc, argv, ":o:s:rc:nqh", list, NULL)) != -1) {
 		if (option == 's' && command_settings_add(&command->settings, optarg, &err) != 0)
 			return command_fail(&err);
 		if (option == ':' || option == '?')
 			return command_option_error("run", option, argv);
 		if (option == 'o')
 			command->folder = optarg;
+		if (option == 'c')
+			command->run.from = optarg;
 		command->run.retry |= option == 'r';
 		command->run.progress &= option != 'n' && option != 'q';
 		command->run.quiet |= option == 'q';
@@ -124,11 +133,13 @@ static int execute(struct run_command *command, char **argv)
 	if (folder.failed)
 		(void)error_memory(&err, folder.capacity);
 	else if (config_read(&config, command->file, command->settings.list, command->settings.count,
-				 &err) == 0) {
+				 &err) != 0) {
+		code = command_config_fail(command->file, &err);
+	} else {
 		sleep_when_idle(&config, command->file, argv);
 		(void)run_execute(&config, text_string(&folder), &command->run, &err);
 	}
-	if (err.code)
+	if (err.code && !code)
 		code = command_fail(&err);
 	text_clean(&folder);
 	return code;

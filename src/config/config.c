@@ -1,5 +1,6 @@
 #include "talus/config.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,12 +15,26 @@ struct setting {
 	char name[256];
 };
 
+/* A word or number, perhaps with a unit, that YAML takes for just that. Nearly all values are, and a
+ * parser for each would be most of the time that thousands of runs take to plan. */
+static bool is_plain(const char *value)
+{
+	const char *start = value + (*value == '-' || *value == '+'), *end = start;
+
+	while (isalnum((unsigned char)*end) || (end > start && *end && strchr("._+-/() ", *end)))
+		end++;
+	return end > start && !*end && end[-1] != ' ';
+}
+
 /* The value is YAML, so that lists are written as in a file. */
 static int parse_setting(
 	struct setting *setting, const char *key, const char *value, struct error *err)
 {
-	if (!value[strspn(value, " \t")]) { /* no YAML document at all */
-		setting->source.root = (struct node){.kind = NODE_SCALAR, .text = strdup("")};
+	bool blank = !value[strspn(value, " \t")]; /* no YAML document at all */
+
+	if (blank || is_plain(value)) {
+		setting->source.root =
+			(struct node){.kind = NODE_SCALAR, .text = strdup(blank ? "" : value)};
 		return setting->source.root.text ? 0 : error_memory(err, 1);
 	}
 	if (yaml_parse(&setting->source.root, value, strlen(value), setting->name, err) != 0) {
@@ -191,6 +206,14 @@ int config_parse(struct config *config, const char *text, size_t length, const c
 	return status;
 }
 
+int config_from_node(struct config *config, const struct node *root, const char *name,
+	const char *const *settings, int count, struct error *err)
+{
+	const struct field_source file = {.name = name, .root = *root};
+
+	return read_tree(config, &file, settings, count, err);
+}
+
 void config_print(const struct config *config, struct text *out)
 {
 	field_print(&config_table, config, false, out);
@@ -218,6 +241,33 @@ int config_hash(const struct config *config, char hash[CONFIG_HASH_SIZE], struct
 		hash, CONFIG_HASH_SIZE, "%016llx", (unsigned long long)XXH3_64bits(text.data, text.length));
 	text_clean(&text);
 	return 0;
+}
+
+bool config_is_key(const char *key)
+{
+	const struct field *field = field_find(&config_table, key);
+
+	return field && field->kind != FIELD_GROUP;
+}
+
+bool config_is_whole(const char *key)
+{
+	const struct field *field = field_find(&config_table, key);
+
+	return field && field->kind == FIELD_INTEGER;
+}
+
+bool config_is_alike(const struct config *a, const struct config *b)
+{
+	struct config other = *a;
+	struct text keys = {0};
+	bool alike;
+
+	other.time.end = b->time.end;
+	field_differences(&config_table, &other, b, &keys);
+	alike = !keys.length && !keys.failed;
+	text_clean(&keys);
+	return alike;
 }
 
 void config_differences(const struct config *a, const struct config *b, struct text *out)

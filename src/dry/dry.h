@@ -156,4 +156,7 @@ extern const struct profile dry_profiles[DRY_PROFILE_COUNT];
 void dry_observe(const struct model_state *s, double *values);
 void dry_profile(const struct model_state *s, size_t index, double *values);
 
+/* CPU seconds that a run takes, roughly. */
+double dry_cost(const struct config *config);
+
 #endif

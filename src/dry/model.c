@@ -353,4 +353,5 @@ const struct model dry_model = {
 	.arrays = arrays,
 	.restored = dry_velocities,
 	.free = destroy,
+	.cost = dry_cost,
 };

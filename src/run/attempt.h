@@ -10,6 +10,14 @@
 #include "talus/run.h"
 #include "talus/run_file.h"
 
+/* The state before the first step that time.end shortened. */
+struct attempt_mark {
+	double *values; /* of the model's arrays, one after another; NULL: there was no such step yet */
+	uint64_t step;
+	double time; /* simulated, s */
+	double cpu;  /* of all attempts until then, s */
+};
+
 struct attempt {
 	const struct model *model;
 	const struct config *config;
@@ -20,6 +28,7 @@ struct attempt {
 	struct recorder *recorder;
 	uint64_t step; /* steps done */
 	double time;   /* simulated, s */
+	struct attempt_mark mark;
 
 	char config_hash[CONFIG_HASH_SIZE];
 	char created[CLOCK_STAMP_SIZE]; /* when the run was begun */
@@ -28,9 +37,12 @@ struct attempt {
 	double cpu_begin;               /* of the process when this attempt began, s */
 	bool keep_newest;               /* run.h5 is good, and is kept as the previous generation */
 
-	double wall_begin, time_begin;   /* where this attempt began: for the time left */
+	double rate_wall, rate_time; /* the last tick, for the time left */
+	double wall_sum, time_sum;   /* passed since this attempt began; what is older counts less */
 	double status_due, progress_due; /* moments on the wall clock */
 	bool status_failed;              /* a status could not be written, and that was told */
+	struct text ended;               /* how the attempts before this one ended, line by line */
+	int failures;                    /* how many of them failed */
 };
 
 double attempt_cpu(const struct attempt *attempt);       /* of all attempts, s */

@@ -33,38 +33,65 @@ static void write_attributes(
 }
 
 /* Where the array of the model's state lies in the file. */
-static const char *array_path(const struct array *array, char path[256])
+static const char *array_path(const char *group, const struct array *array, char path[256])
 {
-	(void)snprintf(path, 256, "/checkpoint/state/%s", array->name);
+	(void)snprintf(path, 256, "%s/state/%s", group, array->name);
 	return path;
 }
 
-static void write_state(const struct attempt *attempt, struct image *image)
+static size_t array_size(const struct array *array)
+{
+	return array->extent[0] * array->extent[1];
+}
+
+static void write_scalar(struct image *image, const char *group, const struct image_data *scalar)
+{
+	struct image_data data = *scalar;
+	char path[256];
+
+	(void)snprintf(path, sizeof path, "%s/%s", group, scalar->path);
+	data.path = path;
+	image_dataset(image, &data);
+}
+
+/* The present state, or with `mark` that of the mark. */
+static void write_state(const struct attempt *attempt, const char *group,
+	const struct attempt_mark *mark, struct image *image)
 {
 	struct array list[MODEL_ARRAYS_MAX];
 	size_t count = attempt->model->arrays(attempt->state, list);
-	double step = (double)attempt->step;
+	double step = (double)(mark ? mark->step : attempt->step), *next = mark ? mark->values : NULL;
 	char path[256], name[256];
 
-	image_group(image, "/checkpoint");
-	image_dataset(image, &(struct image_data){.path = "/checkpoint/step",
-							 .units = "1",
-							 .long_name = "steps done",
-							 .whole = true,
-							 .values = &step});
-	image_dataset(image, &(struct image_data){.path = "/checkpoint/time",
-							 .units = "s",
-							 .long_name = "simulated time",
-							 .values = &attempt->time});
-	image_group(image, "/checkpoint/state");
+	image_group(image, group);
+	write_scalar(image, group,
+		&(struct image_data){.path = "step",
+			.units = "1",
+			.long_name = "steps done",
+			.whole = true,
+			.values = &step});
+	write_scalar(image, group,
+		&(struct image_data){.path = "time",
+			.units = "s",
+			.long_name = "simulated time",
+			.values = mark ? &mark->time : &attempt->time});
+	if (mark)
+		write_scalar(image, group,
+			&(struct image_data){.path = "cpu_seconds",
+				.units = "s",
+				.long_name = "CPU time until then",
+				.values = &mark->cpu});
+	(void)snprintf(path, sizeof path, "%s/state", group);
+	image_group(image, path);
 	for (size_t i = 0; i < count; i++) {
 		(void)snprintf(name, sizeof name, "exact state of the model: %s", list[i].name);
-		image_dataset(image, &(struct image_data){.path = array_path(&list[i], path),
+		image_dataset(image, &(struct image_data){.path = array_path(group, &list[i], path),
 								 .units = "1",
 								 .long_name = name,
 								 .rank = 2,
 								 .extent = {list[i].extent[0], list[i].extent[1]},
-								 .values = list[i].data});
+								 .values = mark ? next : list[i].data});
+		next += mark ? array_size(&list[i]) : 0;
 	}
 }
 
@@ -74,7 +101,7 @@ static size_t state_size(const struct attempt *attempt)
 	size_t count = attempt->model->arrays(attempt->state, list), values = 0;
 
 	for (size_t i = 0; i < count; i++)
-		values += list[i].extent[0] * list[i].extent[1];
+		values += array_size(&list[i]);
 	return values * sizeof(double);
 }
 
@@ -111,31 +138,89 @@ int checkpoint_write(struct attempt *attempt, enum run_status status, struct err
 		text_clean(&config);
 		return error_memory(err, config.capacity);
 	}
-	if (image_create(state_size(attempt) + recorder_size(attempt->recorder), &image, err) != 0) {
+	if (image_create(2 * state_size(attempt) + recorder_size(attempt->recorder), &image, err) !=
+		0) {
 		text_clean(&config);
 		return -1;
 	}
 	write_attributes(attempt, status, text_string(&config), image);
 	text_clean(&config);
-	write_state(attempt, image);
+	write_state(attempt, RUN_FILE_CHECKPOINT, NULL, image);
+	if (attempt->mark.values)
+		write_state(attempt, RUN_FILE_CONTINUATION, &attempt->mark, image);
 	recorder_write(attempt->recorder, image);
 	return publish(attempt, image, &summary, err);
 }
 
-int checkpoint_read(struct attempt *attempt, struct run_file *file, struct error *err)
+int checkpoint_mark(struct attempt *attempt, struct error *err)
 {
-	const struct run_summary *summary = run_file_summary(file);
+	struct array list[MODEL_ARRAYS_MAX];
+	size_t count = attempt->model->arrays(attempt->state, list), bytes = state_size(attempt);
+	double *next = malloc(bytes + 1);
+
+	if (!next)
+		return error_memory(err, bytes + 1);
+	free(attempt->mark.values);
+	attempt->mark = (struct attempt_mark){next, attempt->step, attempt->time, attempt_cpu(attempt)};
+	for (size_t i = 0; i < count; i++) {
+		memcpy(next, list[i].data, array_size(&list[i]) * sizeof *next);
+		next += array_size(&list[i]);
+	}
+	return recorder_mark(attempt->recorder, err);
+}
+
+static int read_arrays(
+	struct attempt *attempt, struct run_file *file, const char *group, struct error *err)
+{
 	struct array list[MODEL_ARRAYS_MAX];
 	size_t count = attempt->model->arrays(attempt->state, list);
 	char path[256];
 
 	for (size_t i = 0; i < count; i++)
-		TRY(run_file_fill(file, array_path(&list[i], path), list[i].data,
-			list[i].extent[0] * list[i].extent[1], err));
+		TRY(run_file_fill(
+			file, array_path(group, &list[i], path), list[i].data, array_size(&list[i]), err));
+	return 0;
+}
+
+/* Step, time and CPU time of the mark, which the trailer does not tell. */
+static int read_mark(
+	struct run_file *file, uint64_t *step, double *time, double *cpu, struct error *err)
+{
+	double steps;
+
+	TRY(run_file_fill(file, RUN_FILE_CONTINUATION "/step", &steps, 1, err));
+	TRY(run_file_fill(file, RUN_FILE_CONTINUATION "/time", time, 1, err));
+	TRY(run_file_fill(file, RUN_FILE_CONTINUATION "/cpu_seconds", cpu, 1, err));
+	*step = (uint64_t)steps;
+	return 0;
+}
+
+int checkpoint_read(struct attempt *attempt, struct run_file *file, struct error *err)
+{
+	const struct run_summary *summary = run_file_summary(file);
+
+	if (run_file_has(file, RUN_FILE_CONTINUATION)) {
+		struct attempt_mark *mark = &attempt->mark;
+
+		TRY(read_arrays(attempt, file, RUN_FILE_CONTINUATION, err));
+		TRY(checkpoint_mark(attempt, err));
+		TRY(read_mark(file, &mark->step, &mark->time, &mark->cpu, err));
+	}
+	TRY(read_arrays(attempt, file, RUN_FILE_CHECKPOINT, err));
 	attempt->model->restored(attempt->state);
 	attempt->step = summary->step;
 	attempt->time = summary->time;
-	return recorder_read(attempt->recorder, file, err);
+	return recorder_read(attempt->recorder, file, false, err);
+}
+
+int checkpoint_continue(struct attempt *attempt, struct run_file *file, struct error *err)
+{
+	if (!run_file_has(file, RUN_FILE_CONTINUATION)) /* stopped before its end made a difference */
+		return checkpoint_read(attempt, file, err);
+	TRY(read_arrays(attempt, file, RUN_FILE_CONTINUATION, err));
+	attempt->model->restored(attempt->state);
+	TRY(read_mark(file, &attempt->step, &attempt->time, &attempt->cpu_before, err));
+	return recorder_read(attempt->recorder, file, true, err);
 }
 
 int checkpoint_fail(struct attempt *attempt, const char *reason, struct error *err)

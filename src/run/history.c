@@ -21,6 +21,22 @@ void history_clean(struct history *history)
 	*history = (struct history){0};
 }
 
+int history_copy(struct history *copy, const struct history *history, struct error *err)
+{
+	size_t kept = history->count - history->first, values = kept * history->width;
+
+	*copy = *history;
+	copy->first = 0;
+	copy->count = copy->capacity = kept;
+	copy->values = malloc((values + 1) * sizeof *copy->values);
+	if (!copy->values)
+		return error_memory(err, (values + 1) * sizeof *copy->values);
+	if (values)
+		memcpy(copy->values, history->values + history->first * history->width,
+			values * sizeof *copy->values);
+	return 0;
+}
+
 static const double *row(const struct history *history, size_t index)
 {
 	return history->values + index * history->width;
@@ -103,27 +119,28 @@ static bool is_watched(const struct model *model, size_t index)
 }
 
 /* Path of column `column` (0: the time); false where no slope needs it. */
-static bool column_path(const struct model *model, size_t column, char *path, size_t size)
+static bool column_path(const struct model *model, const char *group, size_t column, char path[256])
 {
 	if (column > 0 && !is_watched(model, column - 1))
 		return false;
 	(void)snprintf(
-		path, size, "/checkpoint/history/%s", column ? model->series[column - 1].name : "time");
+		path, 256, "%s/history/%s", group, column ? model->series[column - 1].name : "time");
 	return true;
 }
 
-void history_write(const struct history *history, struct image *image)
+void history_write(const struct history *history, const char *group, struct image *image)
 {
 	size_t count = history->count - history->first;
 	double *column = malloc((count + 1) * sizeof *column);
 	char path[256];
 
+	(void)snprintf(path, sizeof path, "%s/history", group);
 	if (history->window > 0)
-		image_group(image, "/checkpoint/history");
+		image_group(image, path);
 	for (size_t k = 0; history->window > 0 && k < history->width; k++) {
 		const struct series *series = k ? &history->model->series[k - 1] : NULL;
 
-		if (!column_path(history->model, k, path, sizeof path))
+		if (!column_path(history->model, group, k, path))
 			continue;
 		for (size_t i = 0; column && i < count; i++)
 			column[i] = row(history, history->first + i)[k];
@@ -137,13 +154,14 @@ void history_write(const struct history *history, struct image *image)
 	free(column);
 }
 
-int history_read(struct history *history, struct run_file *file, struct error *err)
+int history_read(
+	struct history *history, const char *group, struct run_file *file, struct error *err)
 {
 	struct dataset data;
 	char path[256];
 
 	for (size_t k = 0; history->window > 0 && k < history->width; k++) {
-		if (!column_path(history->model, k, path, sizeof path))
+		if (!column_path(history->model, group, k, path))
 			continue;
 		TRY(run_file_dataset(file, path, &data, err));
 		if (data.rank != 1 || data.extent[0] < 1 || (k && data.extent[0] != history->count)) {
@@ -153,6 +171,8 @@ int history_read(struct history *history, struct run_file *file, struct error *e
 		}
 		if (k == 0) {
 			history->count = history->capacity = data.extent[0];
+			history->first = 0;
+			free(history->values);
 			history->values = calloc(history->count * history->width, sizeof *history->values);
 		}
 		for (size_t i = 0; history->values && i < history->count; i++)

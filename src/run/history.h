@@ -22,8 +22,12 @@ void history_clean(struct history *history);
 /* Add the series of a step, and fill in those of `values` that are slopes. EX_SOFTWARE. */
 int history_add(struct history *history, double time, double *values, struct error *err);
 
-/* As part of /checkpoint. */
-void history_write(const struct history *history, struct image *image);
-int history_read(struct history *history, struct run_file *file, struct error *err);
+/* Make `copy` hold what is still needed of `history`. EX_SOFTWARE. */
+int history_copy(struct history *copy, const struct history *history, struct error *err);
+
+/* As part of a group of the file: /checkpoint or /checkpoint/continuation. */
+void history_write(const struct history *history, const char *group, struct image *image);
+int history_read(
+	struct history *history, const char *group, struct run_file *file, struct error *err);
 
 #endif

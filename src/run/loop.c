@@ -10,8 +10,9 @@
 #define SHORTEST 1e-12
 
 /* The next step. Only the end of the run shortens steps, and the last two share what is left, so
- * that none of them is tiny. */
-static int choose(const struct attempt *attempt, struct recorder_step *step, struct error *err)
+ * that none of them is tiny: `shared` says that this is one of them. */
+static int choose(
+	const struct attempt *attempt, struct recorder_step *step, bool *shared, struct error *err)
 {
 	double end = attempt->config->time.end, left = end - attempt->time;
 	double dt = attempt->model->time_step(attempt->state);
@@ -20,11 +21,12 @@ static int choose(const struct attempt *attempt, struct recorder_step *step, str
 		return error_set(err, EX_FAILED, "the time step has become %g s: %s (end: %g s)", dt,
 			dt > 0 ? "too short to get to the end" : "the state is not a flow", end);
 	*step = (struct recorder_step){.from = attempt->time, .dt = dt, .to = attempt->time + dt};
+	*shared = left < 2 * dt;
 	if (left <= dt) {
 		step->dt = left;
 		step->to = end;
 		step->last = true;
-	} else if (left < 2 * dt) {
+	} else if (*shared) {
 		step->dt = left / 2;
 		step->to = attempt->time + step->dt;
 	}
@@ -33,7 +35,11 @@ static int choose(const struct attempt *attempt, struct recorder_step *step, str
 
 static int advance(struct attempt *attempt, struct recorder_step *step, struct error *err)
 {
-	TRY(choose(attempt, step, err));
+	bool shared = false;
+
+	TRY(choose(attempt, step, &shared, err));
+	if (shared && !attempt->mark.values)
+		TRY(checkpoint_mark(attempt, err));
 	recorder_before(attempt->recorder, attempt->state, step);
 	TRY(attempt->model->step(attempt->state, step->dt, err));
 	attempt->step++;

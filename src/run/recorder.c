@@ -33,12 +33,12 @@ int recorder_create(const struct model *model, const struct config *config, cons
 	r->axes = *axes;
 	r->cells = (size_t)axes->cells;
 	r->layers = (size_t)axes->layers;
-	history_init(&r->history, model);
+	history_init(&r->now.history, model);
 	r->columns = calloc(RECORDER_OWN + model->series_count, sizeof *r->columns);
 	r->observed = calloc(model->series_count + 1, sizeof *r->observed);
-	r->sums = calloc(model->series_count + 1, sizeof *r->sums);
+	r->now.sums = calloc(model->series_count + 1, sizeof *r->now.sums);
 	r->fields = calloc(model->profile_count + 1, sizeof *r->fields);
-	if (!r->columns || !r->observed || !r->sums || !r->fields)
+	if (!r->columns || !r->observed || !r->now.sums || !r->fields)
 		goto failed;
 	for (size_t p = 0; p < model->profile_count; p++) {
 		struct field_rows *field = &r->fields[p];
@@ -58,6 +58,13 @@ failed:
 	return error_memory(err, most * sizeof(double));
 }
 
+static void place_clean(struct recorder_place *place)
+{
+	history_clean(&place->history);
+	free(place->sums);
+	place->sums = NULL;
+}
+
 void recorder_free(struct recorder *r)
 {
 	if (!r)
@@ -68,10 +75,10 @@ void recorder_free(struct recorder *r)
 		free(r->fields[p].rows);
 		free(r->fields[p].before);
 	}
-	history_clean(&r->history);
+	place_clean(&r->now);
+	place_clean(&r->mark);
 	free(r->columns);
 	free(r->observed);
-	free(r->sums);
 	free(r->fields);
 	free(r->profile_times);
 	free(r->after);
@@ -122,10 +129,10 @@ int recorder_reserve_profiles(struct recorder *r, size_t rows, struct error *err
 static int add_profile(struct recorder *r, const struct model_state *state, double time,
 	double weight, struct error *err)
 {
-	TRY(recorder_reserve_profiles(r, r->profile_rows + 1, err));
+	TRY(recorder_reserve_profiles(r, r->now.profile_rows + 1, err));
 	for (size_t p = 0; p < r->model->profile_count; p++) {
 		struct field_rows *field = &r->fields[p];
-		double *row = field->rows + r->profile_rows * field->size;
+		double *row = field->rows + r->now.profile_rows * field->size;
 
 		if (r->model->profiles[p].constant)
 			continue;
@@ -137,7 +144,7 @@ static int add_profile(struct recorder *r, const struct model_state *state, doub
 		for (size_t i = 0; i < field->size; i++)
 			row[i] = field->before[i] + weight * (r->after[i] - field->before[i]);
 	}
-	r->profile_times[r->profile_rows++] = time;
+	r->profile_times[r->now.profile_rows++] = time;
 	return 0;
 }
 
@@ -145,19 +152,20 @@ static bool is_due(const struct recorder *r, double time)
 {
 	const struct real_list *at = &r->config->output.profiles_at;
 
-	return r->next_profile < (size_t)at->count && at->values[r->next_profile] <= time;
+	return r->now.next_profile < (size_t)at->count && at->values[r->now.next_profile] <= time;
 }
 
 static int add_profiles(struct recorder *r, const struct model_state *state,
 	const struct recorder_step *step, struct error *err)
 {
 	while (is_due(r, step->to)) {
-		double time = r->config->output.profiles_at.values[r->next_profile++];
+		double time = r->config->output.profiles_at.values[r->now.next_profile++];
 		double weight = time < step->to ? (time - step->from) / (step->to - step->from) : 1;
 
 		TRY(add_profile(r, state, time, weight, err));
 	}
-	if (step->last && (r->profile_rows == 0 || r->profile_times[r->profile_rows - 1] != step->to))
+	if (step->last &&
+		(r->now.profile_rows == 0 || r->profile_times[r->now.profile_rows - 1] != step->to))
 		return add_profile(r, state, step->to, 1, err);
 	return 0;
 }
@@ -170,11 +178,11 @@ static bool is_sampled(struct recorder *r, const struct recorder_step *step)
 	/* finer than any step, and than whole numbers of it can count */
 	if (every <= 0 || step->to / every >= 0x1p53)
 		return true;
-	if (step->to < r->next_sample * every)
+	if (step->to < r->now.next_sample * every)
 		return step->last;
-	r->next_sample = floor(step->to / every);
-	while (r->next_sample * every <= step->to)
-		r->next_sample++;
+	r->now.next_sample = floor(step->to / every);
+	while (r->now.next_sample * every <= step->to)
+		r->now.next_sample++;
 	return true;
 }
 
@@ -184,19 +192,20 @@ static int add_series(struct recorder *r, const struct model_state *state,
 	const struct model *model = r->model;
 
 	model->observe(state, r->observed);
-	TRY(history_add(&r->history, step->to, r->observed, err));
+	TRY(history_add(&r->now.history, step->to, r->observed, err));
 	for (size_t i = 0; i < model->series_count; i++)
-		r->sums[i] = model->series[i].per_step_sum ? r->sums[i] + r->observed[i] : r->observed[i];
+		r->now.sums[i] =
+			model->series[i].per_step_sum ? r->now.sums[i] + r->observed[i] : r->observed[i];
 	if (!is_sampled(r, step))
 		return 0;
-	TRY(recorder_reserve_rows(r, r->rows + 1, err));
-	r->columns[RECORDER_TIME][r->rows] = step->to;
-	r->columns[RECORDER_DT][r->rows] = step->dt;
+	TRY(recorder_reserve_rows(r, r->now.rows + 1, err));
+	r->columns[RECORDER_TIME][r->now.rows] = step->to;
+	r->columns[RECORDER_DT][r->now.rows] = step->dt;
 	for (size_t i = 0; i < model->series_count; i++) {
-		r->columns[RECORDER_OWN + i][r->rows] = r->sums[i];
-		r->sums[i] = 0;
+		r->columns[RECORDER_OWN + i][r->now.rows] = r->now.sums[i];
+		r->now.sums[i] = 0;
 	}
-	r->rows++;
+	r->now.rows++;
 	return 0;
 }
 
@@ -226,4 +235,18 @@ int recorder_after(struct recorder *r, const struct model_state *state,
 {
 	TRY(add_series(r, state, step, err));
 	return add_profiles(r, state, step, err);
+}
+
+int recorder_mark(struct recorder *r, struct error *err)
+{
+	size_t bytes = (r->model->series_count + 1) * sizeof *r->mark.sums;
+
+	place_clean(&r->mark);
+	r->mark = r->now;
+	r->mark.history = (struct history){0};
+	r->mark.sums = malloc(bytes);
+	if (!r->mark.sums)
+		return error_memory(err, bytes);
+	memcpy(r->mark.sums, r->now.sums, bytes);
+	return history_copy(&r->mark.history, &r->now.history, err);
 }

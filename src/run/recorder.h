@@ -31,13 +31,19 @@ void recorder_before(
 int recorder_after(struct recorder *recorder, const struct model_state *state,
 	const struct recorder_step *step, struct error *err);
 
-/* Series and profiles into the root, and into /checkpoint what recording on needs. */
+/* Remember this place as the one where the run goes on if it gets a later end. EX_SOFTWARE. */
+int recorder_mark(struct recorder *recorder, struct error *err);
+
+/* Series and profiles into the root; what recording on needs into /checkpoint, and that of the mark, if
+ * there is one, into /checkpoint/continuation. */
 void recorder_write(const struct recorder *recorder, struct image *image);
 
 /* About how many bytes recorder_write writes. */
 size_t recorder_size(const struct recorder *recorder);
 
-/* Take up from a run file what recorder_write put there. EX_DATAERR, EX_SOFTWARE. */
-int recorder_read(struct recorder *recorder, struct run_file *file, struct error *err);
+/* Take up from a run file what recorder_write put there; with `at_mark` as it was at the mark, without
+ * what was recorded since. EX_DATAERR, EX_SOFTWARE. */
+int recorder_read(
+	struct recorder *recorder, struct run_file *file, bool at_mark, struct error *err);
 
 #endif

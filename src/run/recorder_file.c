@@ -25,7 +25,7 @@ static void write_series(const struct recorder *r, struct image *image)
 			.long_name = series->long_name,
 			.whole = series->whole,
 			.rank = 1,
-			.extent = {r->rows},
+			.extent = {r->now.rows},
 			.scales = {"time"},
 			.values = r->columns[i]};
 
@@ -45,7 +45,7 @@ static void write_axes(const struct recorder *r, struct image *image)
 			.units = "s",
 			.long_name = "simulated time of the profiles",
 			.standard_name = "time",
-			.extent = {r->profile_rows},
+			.extent = {r->now.profile_rows},
 			.values = r->profile_times},
 		{.path = "x",
 			.units = "m",
@@ -83,7 +83,7 @@ static void write_profile(const struct recorder *r, size_t index, struct image *
 		.values = r->fields[index].rows};
 
 	if (!profile->constant) {
-		data.extent[data.rank] = r->profile_rows;
+		data.extent[data.rank] = r->now.profile_rows;
 		data.scales[data.rank++] = "profile_time";
 	}
 	if (profile->shape != PROFILE_X) {
@@ -92,40 +92,51 @@ static void write_profile(const struct recorder *r, size_t index, struct image *
 	}
 	data.extent[data.rank] = r->cells;
 	data.scales[data.rank++] = "x";
-	if (profile->constant || r->profile_rows)
+	if (profile->constant || r->now.profile_rows)
 		image_dataset(image, &data);
 }
 
 /* Path of the sum that series `index` has gathered since its last row; false for a sampled one. */
-static bool sum_path(const struct recorder *r, size_t index, char *path, size_t size)
+static bool sum_path(const struct recorder *r, const char *group, size_t index, char path[256])
 {
-	(void)snprintf(path, size, "/checkpoint/sums/%s", r->model->series[index].name);
+	(void)snprintf(path, 256, "%s/sums/%s", group, r->model->series[index].name);
 	return r->model->series[index].per_step_sum;
 }
 
-static void write_checkpoint(const struct recorder *r, struct image *image)
+static void write_count(
+	struct image *image, const char *group, const char *name, const char *long_name, double value)
 {
-	double next_profile = (double)r->next_profile;
 	char path[256];
 
-	image_dataset(image, &(struct image_data){.path = "/checkpoint/next_sample",
-							 .units = "1",
-							 .long_name = "next multiple of series_every that is due",
-							 .whole = true,
-							 .values = &r->next_sample});
-	image_dataset(image, &(struct image_data){.path = "/checkpoint/next_profile",
-							 .units = "1",
-							 .long_name = "index of the next time in profiles_at",
-							 .whole = true,
-							 .values = &next_profile});
-	image_group(image, "/checkpoint/sums");
+	(void)snprintf(path, sizeof path, "%s/%s", group, name);
+	image_dataset(image,
+		&(struct image_data){
+			.path = path, .units = "1", .long_name = long_name, .whole = true, .values = &value});
+}
+
+static void write_place(const struct recorder *r, const struct recorder_place *place,
+	const char *group, struct image *image)
+{
+	char path[256];
+
+	write_count(image, group, "next_sample", "next multiple of series_every that is due",
+		place->next_sample);
+	write_count(image, group, "next_profile", "index of the next time in profiles_at",
+		(double)place->next_profile);
+	if (place != &r->now) {
+		write_count(image, group, "rows", "length of the series then", (double)place->rows);
+		write_count(image, group, "profile_rows", "number of the profiles then",
+			(double)place->profile_rows);
+	}
+	(void)snprintf(path, sizeof path, "%s/sums", group);
+	image_group(image, path);
 	for (size_t i = 0; i < r->model->series_count; i++)
-		if (sum_path(r, i, path, sizeof path))
+		if (sum_path(r, group, i, path))
 			image_dataset(image, &(struct image_data){.path = path,
 									 .units = r->model->series[i].units,
 									 .long_name = r->model->series[i].long_name,
-									 .values = &r->sums[i]});
-	history_write(&r->history, image);
+									 .values = &place->sums[i]});
+	history_write(&place->history, group, image);
 }
 
 void recorder_write(const struct recorder *r, struct image *image)
@@ -134,16 +145,18 @@ void recorder_write(const struct recorder *r, struct image *image)
 	write_axes(r, image);
 	for (size_t p = 0; p < r->model->profile_count; p++)
 		write_profile(r, p, image);
-	write_checkpoint(r, image);
+	write_place(r, &r->now, RUN_FILE_CHECKPOINT, image);
+	if (r->mark.sums)
+		write_place(r, &r->mark, RUN_FILE_CONTINUATION, image);
 }
 
 size_t recorder_size(const struct recorder *r)
 {
-	size_t values = r->rows * (RECORDER_OWN + r->model->series_count);
+	size_t values = r->now.rows * (RECORDER_OWN + r->model->series_count);
 
 	for (size_t p = 0; p < r->model->profile_count; p++)
-		values += r->fields[p].size * (r->profile_rows + 1);
-	values += (r->history.count - r->history.first) * r->history.width;
+		values += r->fields[p].size * (r->now.profile_rows + 1);
+	values += (r->now.history.count - r->now.history.first) * r->now.history.width;
 	return values * sizeof(double);
 }
 
@@ -183,27 +196,61 @@ static int read_profiles(struct recorder *r, struct run_file *file, struct error
 	}
 	if (rows)
 		TRY(run_file_fill(file, "/profile_time", r->profile_times, rows, err));
-	r->profile_rows = rows;
+	r->now.profile_rows = rows;
 	return 0;
 }
 
-int recorder_read(struct recorder *r, struct run_file *file, struct error *err)
+static int read_count(struct run_file *file, const char *group, const char *name, size_t most,
+	size_t *out, struct error *err)
 {
-	double next_profile;
+	double value;
 	char path[256];
+
+	(void)snprintf(path, sizeof path, "%s/%s", group, name);
+	TRY(run_file_fill(file, path, &value, 1, err));
+	if (!(value >= 0 && value <= (double)most))
+		return error_at(err, EX_DATAERR, run_file_path(file), 0, 0,
+			"dataset '%s' is %g, not 0 to %zu", path, value, most);
+	*out = (size_t)value;
+	return 0;
+}
+
+/* `place` has its sums allocated, and its history empty. */
+static int read_place(struct recorder *r, struct recorder_place *place, const char *group,
+	struct run_file *file, struct error *err)
+{
+	char path[256];
+
+	(void)snprintf(path, sizeof path, "%s/next_sample", group);
+	TRY(run_file_fill(file, path, &place->next_sample, 1, err));
+	TRY(read_count(file, group, "next_profile", (size_t)r->config->output.profiles_at.count,
+		&place->next_profile, err));
+	if (strcmp(group, RUN_FILE_CHECKPOINT) != 0) {
+		TRY(read_count(file, group, "rows", r->now.rows, &place->rows, err));
+		TRY(read_count(
+			file, group, "profile_rows", r->now.profile_rows, &place->profile_rows, err));
+	}
+	for (size_t i = 0; i < r->model->series_count; i++)
+		if (sum_path(r, group, i, path))
+			TRY(run_file_fill(file, path, &place->sums[i], 1, err));
+	return history_read(&place->history, group, file, err);
+}
+
+int recorder_read(struct recorder *r, struct run_file *file, bool at_mark, struct error *err)
+{
 	size_t rows;
 
 	TRY(read_length(file, "/time", &rows, err));
 	TRY(recorder_reserve_rows(r, rows, err));
 	for (size_t i = 0; i < RECORDER_OWN + r->model->series_count; i++)
 		TRY(run_file_fill(file, series_at(r, i)->name, r->columns[i], rows, err));
-	r->rows = rows;
+	r->now.rows = rows;
 	TRY(read_profiles(r, file, err));
-	TRY(run_file_fill(file, "/checkpoint/next_sample", &r->next_sample, 1, err));
-	TRY(run_file_fill(file, "/checkpoint/next_profile", &next_profile, 1, err));
-	r->next_profile = (size_t)next_profile;
-	for (size_t i = 0; i < r->model->series_count; i++)
-		if (sum_path(r, i, path, sizeof path))
-			TRY(run_file_fill(file, path, &r->sums[i], 1, err));
-	return history_read(&r->history, file, err);
+	if (at_mark)
+		return read_place(r, &r->now, RUN_FILE_CONTINUATION, file, err);
+	if (run_file_has(file, RUN_FILE_CONTINUATION)) {
+		TRY(recorder_mark(r, err)); /* for the room */
+		TRY(read_place(r, &r->mark, RUN_FILE_CONTINUATION, file, err));
+	}
+	return read_place(r, &r->now, RUN_FILE_CHECKPOINT, file, err);
 }

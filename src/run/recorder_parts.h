@@ -14,24 +14,31 @@ struct field_rows {
 	double *before; /* [size], before the step that holds a profile time */
 };
 
+/* Where recording stands after a step: all that recording on from there needs, beside the rows. */
+struct recorder_place {
+	size_t rows, profile_rows; /* recorded so far */
+	double next_sample;        /* series are due at this multiple of series_every; a whole number */
+	size_t next_profile;       /* index into output.profiles_at */
+	double *sums;              /* [series], what the next row will hold */
+	struct history history;
+};
+
 struct recorder {
 	const struct model *model;
 	const struct config *config;
 	struct axes axes;
 	size_t cells, layers;
-	struct history history;
+	struct recorder_place now;
+	struct recorder_place mark; /* of recorder_mark; no sums: there is none */
 
-	size_t rows, capacity;
-	double **columns;   /* [RECORDER_OWN + series][capacity] */
-	double *observed;   /* [series], of the last step */
-	double *sums;       /* [series], what the next row will hold */
-	double next_sample; /* series are due at this multiple of series_every; a whole number */
+	size_t capacity;
+	double **columns; /* [RECORDER_OWN + series][capacity] */
+	double *observed; /* [series], of the last step */
 
-	size_t profile_rows, profile_capacity;
+	size_t profile_capacity;
 	double *profile_times;     /* [profile_capacity] */
 	struct field_rows *fields; /* [profiles] */
 	double *after;             /* the largest field, after the step */
-	size_t next_profile;       /* index into output.profiles_at */
 };
 
 int recorder_reserve_rows(struct recorder *recorder, size_t rows, struct error *err);

@@ -105,6 +105,11 @@ void run_report_read(const char *folder, struct run_report *report)
 
 	*report = status;
 	report->state = RUN_STATE_PENDING;
+	if (!told && file_exists(folder) && !file_is_folder(folder)) {
+		report->state = RUN_STATE_DAMAGED;
+		(void)snprintf(report->reason, sizeof report->reason, "%.900s is not a folder", folder);
+		return;
+	}
 	if (is_running(folder)) {
 		/* the run file is behind by up to a checkpoint; status.yaml by seconds */
 		report->state = RUN_STATE_RUNNING;

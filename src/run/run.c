@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/file.h"
@@ -13,16 +14,20 @@
 #include "run/status.h"
 
 /* What the run in the folder asks for. */
-enum course { START, RESUME, NOTHING };
+enum course { START, RESUME, CONTINUE, NOTHING };
 
-/* Refuse a file that this config and this program would not have made. */
-static int compare_config(const struct attempt *attempt, struct run_file *file, struct error *err)
+/* Refuse a file that this config and this program would not have made. One whose run has an earlier end
+ * and else the same config is a beginning of this run: `*earlier` is then its end, else NaN. */
+static int compare_config(
+	const struct attempt *attempt, struct run_file *file, double *earlier, struct error *err)
 {
 	struct text stored = {0}, keys = {0}, list = {0};
 	struct error unreadable = {0};
 	struct config config;
+	int result = -1;
 	char *rest;
 
+	*earlier = NAN;
 	if (!strcmp(run_file_summary(file)->config_hash, attempt->config_hash))
 		return 0;
 	if (run_file_text(file, "config", &stored, err) != 0)
@@ -30,6 +35,12 @@ static int compare_config(const struct attempt *attempt, struct run_file *file, 
 	if (config_parse(&config, text_string(&stored), stored.length, run_file_path(file), NULL, 0,
 			&unreadable) == 0)
 		config_differences(&config, attempt->config, &keys);
+	if (keys.length && config.time.end < attempt->config->time.end &&
+		config_is_alike(&config, attempt->config)) {
+		*earlier = config.time.end;
+		result = 0;
+		goto done;
+	}
 	for (char *key = keys.data ? strtok_r(keys.data, "\n", &rest) : NULL; key;
 		 key = strtok_r(NULL, "\n", &rest))
 		text_addf(&list, list.length ? ", %s" : "%s", key);
@@ -40,7 +51,7 @@ done:
 	text_clean(&stored);
 	text_clean(&keys);
 	text_clean(&list);
-	return -1;
+	return result;
 }
 
 static int compare_numerics(const struct attempt *attempt, struct run_file *file, struct error *err)
@@ -60,21 +71,38 @@ static int compare_numerics(const struct attempt *attempt, struct run_file *file
 static int read_past(struct attempt *attempt, struct run_file *file, struct error *err)
 {
 	struct text created = {0};
-	double attempts;
 	int result = -1;
 
-	if (run_file_real(file, "attempts", &attempts, err) != 0 ||
-		run_file_real(file, "cpu_seconds", &attempt->cpu_before, err) != 0 ||
+	if (run_file_real(file, "cpu_seconds", &attempt->cpu_before, err) != 0 ||
 		run_file_text(file, "created", &created, err) != 0)
 		goto done;
-	if (attempts >= attempt->number)
-		attempt->number = (int)fmin(attempts, 1e9) + 1;
 	(void)snprintf(attempt->created, sizeof attempt->created, "%s", text_string(&created));
-	attempt->keep_newest = run_file_is_newest(file);
 	result = 0;
 done:
 	text_clean(&created);
 	return result;
+}
+
+/* Files of before this was possible lack the state to go on from once they are complete. */
+static int can_continue(struct run_file *file, struct error *err)
+{
+	if (run_file_summary(file)->status != RUN_COMPLETE || run_file_has(file, RUN_FILE_CONTINUATION))
+		return 0;
+	return error_at(err, EX_DATAERR, run_file_path(file), 0, 0,
+		"is complete with an earlier time.end, and holds no %s to go on from",
+		RUN_FILE_CONTINUATION);
+}
+
+/* The same of a file in the run's own folder. */
+static int read_own_past(struct attempt *attempt, struct run_file *file, struct error *err)
+{
+	double attempts;
+
+	TRY(run_file_real(file, "attempts", &attempts, err));
+	if (attempts >= attempt->number)
+		attempt->number = (int)fmin(attempts, 1e9) + 1;
+	attempt->keep_newest = run_file_is_newest(file);
+	return read_past(attempt, file, err);
 }
 
 static int failed_before(const struct attempt *attempt, struct run_file *file, struct error *err)
@@ -89,12 +117,82 @@ static int failed_before(const struct attempt *attempt, struct run_file *file, s
 	return -1;
 }
 
-/* Look at what lies in the folder. With RESUME and NOTHING `*file` is open. */
+/* A finished run with an earlier end stays beside the one that goes on from it. */
+static int keep_earlier(
+	const struct attempt *attempt, struct run_file *file, double earlier, struct error *err)
+{
+	char number[TEXT_REAL_SIZE], name[TEXT_REAL_SIZE + 16];
+	struct text path = {0};
+	unsigned char *bytes = NULL;
+	size_t size;
+	int result = 0;
+
+	(void)snprintf(name, sizeof name, "run.end-%s.h5", text_real(earlier, number));
+	TRY(file_path(&path, attempt->folder, name, err));
+	if (!file_exists(text_string(&path)))
+		result = file_read(run_file_path(file), &bytes, &size, err) != 0 ||
+						 file_replace(
+							 &(struct file_place){
+								 .folder = attempt->folder, .name = name, .durable = true},
+							 &(struct file_part){bytes, size}, 1, err) != 0
+					 ? -1
+					 : 0;
+	free(bytes);
+	if (result == 0)
+		attempt_say(attempt, RUN_VOICE_RESULT,
+			"%s: goes on from the run to %s s, which is kept as %s", attempt->folder, number, name);
+	text_clean(&path);
+	return result;
+}
+
+/* The run of options->from, if it is a beginning of this one. One that is not, or cannot be read, is
+ * told, and this run starts at 0. */
+static int find_beginning(
+	struct attempt *attempt, struct run_file **file, enum course *course, struct error *err)
+{
+	char message[sizeof err->text + sizeof err->file];
+	struct text warning = {0};
+	struct error why = {0};
+	double earlier = NAN;
+
+	*course = START;
+	if (!attempt->options->from)
+		return 0;
+	if (run_file_open_newest(attempt->options->from, file, &warning, &why) == 0 &&
+		compare_config(attempt, *file, &earlier, &why) == 0 &&
+		compare_numerics(attempt, *file, &why) == 0 && !isnan(earlier) &&
+		run_file_summary(*file)->status != RUN_FAILED && can_continue(*file, &why) == 0 &&
+		read_past(attempt, *file, &why) == 0)
+		*course = CONTINUE;
+	text_clean(&warning);
+	if (*course == CONTINUE) {
+		attempt_say(attempt, RUN_VOICE_RESULT, "%s: goes on from %s, a run to %g s",
+			attempt->folder, attempt->options->from, earlier);
+		attempt_log(attempt, "goes on from %s, a run to %g s", attempt->options->from, earlier);
+		return 0;
+	}
+	attempt->cpu_before = 0;
+	run_file_close(*file);
+	*file = NULL;
+	if (why.code == EX_SOFTWARE) {
+		*err = why;
+		return -1;
+	}
+	if (!why.code)
+		(void)error_at(&why, EX_DATAERR, attempt->options->from, 0, 0, "is not its beginning");
+	(void)error_format(&why, message, sizeof message);
+	attempt_say(attempt, RUN_VOICE_WARNING, "starts anew: %s", message);
+	attempt_log(attempt, "warning: starts anew: %s", message);
+	return 0;
+}
+
+/* Look at what lies in the folder. With all but START `*file` is open. */
 static int find_course(
 	struct attempt *attempt, struct run_file **file, enum course *course, struct error *err)
 {
 	struct text warning = {0};
 	enum run_status status;
+	double earlier;
 	int result = run_file_open_newest(attempt->folder, file, &warning, err);
 
 	if (result == 0 && warning.length) {
@@ -104,24 +202,28 @@ static int find_course(
 	text_clean(&warning);
 	if (result != 0 && err->code == EX_NOINPUT) {
 		*err = (struct error){0};
-		*course = START;
-		return 0;
+		return find_beginning(attempt, file, course, err);
 	}
 	if (result != 0)
 		return -1;
-	TRY(read_past(attempt, *file, err));
+	TRY(read_own_past(attempt, *file, err));
 	status = run_file_summary(*file)->status;
 	if (status == RUN_FAILED && attempt->options->retry) {
 		*course = START;
 		attempt->cpu_before = 0;
+		attempt->created[0] = '\0';
 		return 0;
 	}
-	TRY(compare_config(attempt, *file, err));
+	TRY(compare_config(attempt, *file, &earlier, err));
 	TRY(compare_numerics(attempt, *file, err));
 	if (status == RUN_FAILED)
 		return failed_before(attempt, *file, err);
 	*course = status == RUN_COMPLETE ? NOTHING : RESUME;
-	return 0;
+	if (isnan(earlier))
+		return 0;
+	*course = CONTINUE;
+	TRY(can_continue(*file, err));
+	return status == RUN_COMPLETE ? keep_earlier(attempt, *file, earlier, err) : 0;
 }
 
 static int write_config(const struct attempt *attempt, struct error *err)
@@ -139,18 +241,25 @@ static int write_config(const struct attempt *attempt, struct error *err)
 	return result;
 }
 
-/* Bring model and recorder to where the run stands; a new run gets its first checkpoint. */
-static int prepare(struct attempt *attempt, struct run_file *file, struct error *err)
+/* Bring model and recorder to where the run stands. A run that is new, or has got a later end, gets its
+ * first checkpoint. */
+static int prepare(
+	struct attempt *attempt, struct run_file *file, enum course course, struct error *err)
 {
 	struct axes axes;
 
 	TRY(attempt->model->create(attempt->config, &attempt->state, err));
 	axes = attempt->model->axes(attempt->state);
 	TRY(recorder_create(attempt->model, attempt->config, &axes, &attempt->recorder, err));
-	if (file)
+	if (course == RESUME)
 		return checkpoint_read(attempt, file, err);
-	(void)clock_stamp(attempt->created);
-	TRY(recorder_begin(attempt->recorder, attempt->state, err));
+	if (course == CONTINUE) {
+		TRY(checkpoint_continue(attempt, file, err));
+	} else {
+		TRY(recorder_begin(attempt->recorder, attempt->state, err));
+	}
+	if (!attempt->created[0])
+		(void)clock_stamp(attempt->created);
 	return checkpoint_write(attempt, RUN_UNFINISHED, err);
 }
 
@@ -170,6 +279,7 @@ static int conclude(struct attempt *attempt, int result, struct error *err)
 		attempt_say(attempt, RUN_VOICE_WARNING, "cannot mark the run as failed: %s", second.text);
 		attempt_log(attempt, "cannot mark the run as failed: %s", second.text);
 	}
+	status_note_end(attempt, state, reason);
 	status_write(attempt, state, reason);
 	attempt_log(attempt, "%s: %s", run_state_name(state),
 		result ? reason : clock_span(attempt_cpu(attempt), span));
@@ -184,6 +294,7 @@ static int conclude(struct attempt *attempt, int result, struct error *err)
 /* With the lock held. */
 static int live(struct attempt *attempt, struct error *err)
 {
+	static const char *const words[] = {"started", "resumed", "continued"};
 	struct run_file *file = NULL;
 	enum course course;
 	int result = find_course(attempt, &file, &course, err);
@@ -200,13 +311,11 @@ static int live(struct attempt *attempt, struct error *err)
 	}
 	result = write_config(attempt, err);
 	if (result == 0)
-		result = prepare(attempt, course == RESUME ? file : NULL, err);
+		result = prepare(attempt, file, course, err);
 	run_file_close(file);
 	file = NULL;
 	if (result == 0) {
-		attempt->wall_begin = clock_wall();
-		attempt->time_begin = attempt->time;
-		attempt_log(attempt, "%s at step %llu, t = %g s", course == RESUME ? "resumed" : "started",
+		attempt_log(attempt, "%s at step %llu, t = %g s", words[course],
 			(unsigned long long)attempt->step, attempt->time);
 		attempt_tick(attempt);
 		result = loop_run(attempt, err);
@@ -225,7 +334,6 @@ int run_execute_model(const struct model *model, const struct config *config, co
 		.folder = folder,
 		.options = options,
 		.cpu_begin = clock_cpu()};
-	struct run_report before = {0};
 	struct lock lock = {-1};
 	struct text path = {0};
 	int result = -1;
@@ -234,11 +342,12 @@ int run_execute_model(const struct model *model, const struct config *config, co
 		file_path(&path, folder, "run.lock", err) != 0 ||
 		lock_take(&lock, text_string(&path), err) != 0)
 		goto done;
-	(void)status_read(folder, &before);
-	attempt.number = before.attempts + 1;
+	status_read_past(&attempt);
 	result = live(&attempt, err);
 done:
 	recorder_free(attempt.recorder);
+	free(attempt.mark.values);
+	text_clean(&attempt.ended);
 	model->free(attempt.state);
 	lock_release(&lock);
 	text_clean(&path);

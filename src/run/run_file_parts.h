@@ -7,6 +7,12 @@
 #define RUN_FILE_NEWEST "run.h5"
 #define RUN_FILE_PREVIOUS "run.previous.h5"
 
+/* The groups of a run file that hold a state to the bit: the present one, and the one before the steps
+ * that share what was left until the end of the run. No step before that one depends on time.end, so a
+ * run with a later end goes on from there, and has the bits of one that had that end from the start. */
+#define RUN_FILE_CHECKPOINT "/checkpoint"
+#define RUN_FILE_CONTINUATION RUN_FILE_CHECKPOINT "/continuation"
+
 const char *run_file_path(const struct run_file *file);
 const struct run_summary *run_file_summary(const struct run_file *file);
 

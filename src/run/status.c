@@ -11,18 +11,99 @@
 
 #define NAME "status.yaml"
 
+enum { ENDED_MAX = 20 }; /* attempts whose ends are kept */
+
 /* `key: 'text'`, with what YAML or a reader of one line would trip over taken out. */
-static void add_quoted(struct text *out, const char *key, const char *text)
+static void add_quoted(struct text *out, const char *key, const char *text, size_t length)
 {
-	text_addf(out, "%s: '", key);
-	for (; *text; text++) {
+	text_addf(out, "%s '", key);
+	for (; length; text++, length--) {
 		unsigned char c = (unsigned char)*text;
 
-		text_add_bytes(out, c < ' ' ? " " : text, 1);
+		text_add_bytes(out, c < ' ' || c == 0x7F ? " " : text, 1);
 		if (c == '\'')
 			text_add(out, "'");
 	}
 	text_add(out, "'\n");
+}
+
+static void add_ended(struct text *out, const char *lines)
+{
+	text_add(out, *lines ? "ended:\n" : "");
+	while (*lines) {
+		size_t length = strcspn(lines, "\n");
+
+		add_quoted(out, "  -", lines, length);
+		lines += length + (lines[length] == '\n');
+	}
+}
+
+/* The list in status.yaml as lines. */
+static void read_ended(const struct node *root, struct text *out)
+{
+	const struct node *list = node_find(root, "ended");
+
+	for (size_t i = 0; list && i < list->count; i++)
+		if (list->items[i].text && list->count - i < ENDED_MAX)
+			text_addf(out, "%s\n", list->items[i].text);
+}
+
+static void note(struct attempt *attempt, int number, const char *state, const char *reason)
+{
+	char stamp[CLOCK_STAMP_SIZE];
+
+	text_addf(&attempt->ended, "%s attempt %d: %s%s%s\n", clock_stamp(stamp), number, state,
+		*reason ? ": " : "", reason);
+}
+
+void status_note_end(struct attempt *attempt, enum run_state state, const char *reason)
+{
+	char line[1024];
+
+	attempt->failures += state == RUN_STATE_FAILED;
+	note(attempt, attempt->number, run_state_name(state), text_excerpt(reason, line, sizeof line));
+}
+
+/* The nodes of status.yaml; false where there is none that can be read. Clean them in every case. */
+static bool load(const char *folder, struct node *root)
+{
+	struct error ignored = {0};
+	struct text path = {0};
+	bool found;
+
+	*root = (struct node){0};
+	found = file_path(&path, folder, NAME, &ignored) == 0 &&
+			yaml_load(root, text_string(&path), &ignored) == 0 && root->kind == NODE_MAPPING;
+	text_clean(&path);
+	return found;
+}
+
+void status_read_past(struct attempt *attempt)
+{
+	struct run_report before = {0};
+	const struct node *state;
+	struct node root;
+
+	(void)status_read(attempt->folder, &before);
+	attempt->number = before.attempts + 1;
+	attempt->failures = before.failures;
+	if (load(attempt->folder, &root)) {
+		read_ended(&root, &attempt->ended);
+		state = node_find(&root, "state");
+		if (state && state->text && !strcmp(state->text, run_state_name(RUN_STATE_RUNNING)))
+			note(attempt, before.attempts, "ended without a word",
+				"killed, or the machine was lost");
+	}
+	node_clean(&root);
+}
+
+void run_report_history(const char *folder, struct text *out)
+{
+	struct node root;
+
+	if (load(folder, &root))
+		read_ended(&root, out);
+	node_clean(&root);
 }
 
 void status_write(struct attempt *attempt, enum run_state state, const char *reason)
@@ -42,7 +123,9 @@ void status_write(struct attempt *attempt, enum run_state state, const char *rea
 		text_addf(&out, "wall_left: %.1f\n", left);
 	text_addf(&out, "process: %ld on %s\n", (long)getpid(), build_host(host));
 	text_addf(&out, "updated: %s\n", clock_stamp(stamp));
-	add_quoted(&out, "reason", reason);
+	text_addf(&out, "failures: %d\n", attempt->failures);
+	add_quoted(&out, "reason:", reason, strlen(reason));
+	add_ended(&out, text_string(&attempt->ended));
 	if (!out.failed &&
 		file_replace(&(struct file_place){.folder = attempt->folder, .name = NAME},
 			&(struct file_part){out.data, out.length}, 1, &err) != 0 &&
@@ -63,21 +146,24 @@ static void read_real(const struct node *root, const char *key, double *value)
 		(void)text_to_real(node->text, value);
 }
 
+static void read_count(const struct node *root, const char *key, int *count)
+{
+	double value = *count;
+
+	read_real(root, key, &value);
+	if (value >= 0 && value < 1e9)
+		*count = (int)value;
+}
+
 bool status_read(const char *folder, struct run_report *report)
 {
-	struct error ignored = {0};
 	const struct node *reason;
-	struct node root = {0};
-	struct text path = {0};
-	double attempts = report->attempts;
-	bool found;
+	struct node root;
+	bool found = load(folder, &root);
 
-	found = file_path(&path, folder, NAME, &ignored) == 0 &&
-			yaml_load(&root, text_string(&path), &ignored) == 0 && root.kind == NODE_MAPPING;
 	if (found) {
-		read_real(&root, "attempts", &attempts);
-		if (attempts >= 0 && attempts < 1e9)
-			report->attempts = (int)attempts;
+		read_count(&root, "attempts", &report->attempts);
+		read_count(&root, "failures", &report->failures);
 		read_real(&root, "time", &report->time);
 		read_real(&root, "end", &report->end);
 		read_real(&root, "cpu_seconds", &report->cpu_seconds);
@@ -87,6 +173,5 @@ bool status_read(const char *folder, struct run_report *report)
 			(void)snprintf(report->reason, sizeof report->reason, "%s", reason->text);
 	}
 	node_clean(&root);
-	text_clean(&path);
 	return found;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "run/run_file_parts.h"
+#include "talus/tables.h"
 
 static size_t dataset_count(const struct dataset *data)
 {
@@ -216,19 +217,31 @@ static int l2_difference(const struct sample *sample, double *out, struct error 
 }
 
 static const struct metric metrics[] = {
-	{"iterations", "iterations", 0, PARTNER_NONE, false, iterations},
-	{"coarse-iterations", "coarse iterations", 0, PARTNER_NONE, false, coarse_iterations},
-	{"cpu-seconds", "CPU s", -1, PARTNER_NONE, false, cpu_seconds},
-	{"ns-per-unknown", "ns/cell/layer/step", -1, PARTNER_NONE, false, ns_per_unknown},
-	{"residual", "residual", -1, PARTNER_NONE, false, residual},
-	{"speed-up", "speed-up", 2, PARTNER_BASELINE, false, speed_up},
-	{"step-share-transport", "step 1 %", 1, PARTNER_NONE, false, share_transport},
-	{"step-share-friction", "step 2 %", 1, PARTNER_NONE, false, share_friction},
-	{"step-share-pressure", "step 3 %", 1, PARTNER_NONE, false, share_pressure},
-	{"steps", "steps", 0, PARTNER_NONE, false, steps},
-	{"runout", "runout m", 3, PARTNER_NONE, false, runout},
-	{"l1-difference", "l1 %", 2, PARTNER_REFERENCE, true, l1_difference},
-	{"l2-difference", "l2 %", 2, PARTNER_REFERENCE, true, l2_difference},
+	{"iterations", "iterations", 0, PARTNER_NONE, false, iterations,
+		"the greatest number of iterations of the pressure solver in a step"},
+	{"coarse-iterations", "coarse iterations", 0, PARTNER_NONE, false, coarse_iterations,
+		"the same of the coarse system behind the first guess"},
+	{"cpu-seconds", "CPU s", -1, PARTNER_NONE, false, cpu_seconds,
+		"CPU time of the whole run, all attempts"},
+	{"ns-per-unknown", "ns/cell/layer/step", -1, PARTNER_NONE, false, ns_per_unknown,
+		"CPU time of the whole run over cells, layers and steps, in nanoseconds"},
+	{"residual", "residual", -1, PARTNER_NONE, false, residual,
+		"the greatest true relative residual of the pressure system in a step"},
+	{"speed-up", "speed-up", 2, PARTNER_BASELINE, false, speed_up,
+		"CPU time of the `baseline` run over that of this one"},
+	{"step-share-transport", "step 1 %", 1, PARTNER_NONE, false, share_transport,
+		"share of step 1, transport, in the CPU time"},
+	{"step-share-friction", "step 2 %", 1, PARTNER_NONE, false, share_friction,
+		"share of step 2, friction"},
+	{"step-share-pressure", "step 3 %", 1, PARTNER_NONE, false, share_pressure,
+		"share of step 3, non-hydrostatic pressure"},
+	{"steps", "steps", 0, PARTNER_NONE, false, steps, "number of time steps"},
+	{"runout", "runout m", 3, PARTNER_NONE, false, runout,
+		"final position of the front, from the gate"},
+	{"l1-difference", "l1 %", 2, PARTNER_REFERENCE, true, l1_difference,
+		"difference in thickness from the `reference` run, over the mass above the bed: l1 norm, "
+		"at a profile time"},
+	{"l2-difference", "l2 %", 2, PARTNER_REFERENCE, true, l2_difference, "the same in the l2 norm"},
 };
 
 const struct metric *metric_find(const char *name, const char **nearest)
@@ -247,4 +260,15 @@ const struct metric *metric_find(const char *name, const char **nearest)
 		}
 	}
 	return NULL;
+}
+
+void table_reference(struct text *out)
+{
+	text_add(out, "\n## Metrics\n\n| metric | column head | meaning |\n| --- | --- | --- |\n");
+	for (size_t i = 0; i < sizeof metrics / sizeof *metrics; i++)
+		text_addf(out, "| `%s` | %s | %s%s |\n", metrics[i].name, metrics[i].header,
+			metrics[i].meaning ? metrics[i].meaning : "",
+			metrics[i].partner == PARTNER_BASELINE    ? " (needs `baseline`)"
+			: metrics[i].partner == PARTNER_REFERENCE ? " (needs `reference`)"
+													  : "");
 }

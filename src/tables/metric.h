@@ -27,6 +27,7 @@ struct metric {
 	bool profile; /* taken at a profile time */
 	/* EX_DATAERR where the file lacks what is needed. */
 	int (*value)(const struct sample *sample, double *out, struct error *err);
+	const char *meaning; /* for the reference */
 };
 
 /* NULL if there is none of that name; then `nearest` is the name that comes closest. */

@@ -51,10 +51,9 @@ static int leave_folder(void **state)
 }
 
 /* Two runs with layers 4 and 8, each executed by ./program with this text (NULL: there is none). */
-static struct campaign execute(
-	struct experiment *experiment, const char *script, const struct campaign_watch *watch)
+static struct campaign execute_with(struct experiment *experiment, const char *script,
+	const struct campaign_watch *watch, struct campaign_options options)
 {
-	const struct campaign_options options = {.jobs = 1, .program = "./program"};
 	struct campaign campaign;
 	struct error err = {0};
 
@@ -69,6 +68,13 @@ static struct campaign execute(
 		campaign.watch = *watch;
 	assert_int_equal(campaign_execute(&campaign, executor_find("local"), &err), 0);
 	return campaign;
+}
+
+static struct campaign execute(
+	struct experiment *experiment, const char *script, const struct campaign_watch *watch)
+{
+	return execute_with(experiment, script, watch,
+		(struct campaign_options){.jobs = 1, .in_order = true, .program = "./program"});
 }
 
 static void a_crash_fails_the_run_and_the_others_go_on(void **state)
@@ -184,6 +190,100 @@ static void the_first_interrupt_stops_the_runs_and_the_second_ends_the_wait(void
 	experiment_clean(&e);
 }
 
+static off_t tries_of(const struct task *task)
+{
+	struct stat tries;
+	char name[512];
+
+	(void)snprintf(name, sizeof name, "%s/tries", task->run->folder);
+	return stat(name, &tries) ? 0 : tries.st_size;
+}
+
+static void what_crashes_is_tried_again_as_often_as_asked(void **state)
+{
+	struct experiment e;
+	struct campaign c = execute_with(&e, "#!/bin/sh\necho >>\"$4/tries\"\nkill -SEGV $$\n", NULL,
+		(struct campaign_options){.jobs = 2, .retry = 3, .program = "./program"});
+
+	(void)state;
+	assert_int_equal(tries_of(&c.tasks[0]), 4);
+	assert_int_equal(tries_of(&c.tasks[1]), 4);
+	assert_int_equal(c.tasks[0].state, TASK_FAILED);
+	campaign_clean(&c);
+	experiment_clean(&e);
+}
+
+static void enough_failures_start_no_more_runs(void **state)
+{
+	struct experiment e;
+	struct campaign c = execute_with(&e, "#!/bin/sh\nexit 74\n", NULL,
+		(struct campaign_options){
+			.jobs = 1, .max_failures = 1, .in_order = true, .program = "./program"});
+
+	(void)state;
+	assert_int_equal(c.tasks[0].state, TASK_FAILED);
+	assert_int_equal(c.tasks[1].state, TASK_WAITING);
+	assert_true(c.gave_up);
+	assert_int_equal(campaign_code(&c), EX_FAILED);
+	campaign_clean(&c);
+	experiment_clean(&e);
+}
+
+static void a_run_that_hangs_is_told_to_stop_after_its_time(void **state)
+{
+	struct experiment e;
+	struct campaign c = execute_with(&e,
+		"#!/bin/sh\n"
+		"trap 'exit 75' TERM\n"
+		"echo >>\"$4/tries\"\n"
+		"while :; do sleep 0.05; done\n",
+		NULL,
+		(struct campaign_options){.jobs = 2, .timeout = 0.3, .retry = 1, .program = "./program"});
+
+	(void)state;
+	assert_int_equal(tries_of(&c.tasks[0]), 2);
+	assert_int_equal(c.tasks[0].state, TASK_INTERRUPTED);
+	assert_string_equal(c.tasks[0].report.reason, "stopped after the --timeout of 0.3 s");
+	assert_int_equal(campaign_code(&c), EX_INTERRUPTED);
+	campaign_clean(&c);
+	experiment_clean(&e);
+}
+
+static void cancel_when_ready(void *context, const struct campaign *campaign)
+{
+	struct error err = {0};
+
+	if (access("ready", F_OK) == 0 && !*(bool *)context) {
+		*(bool *)context = true;
+		assert_int_equal(campaign_cancel(campaign->experiment, &err), 0);
+	}
+}
+
+static void a_cancel_stops_this_campaign_and_no_later_one(void **state)
+{
+	static const char script[] = "#!/bin/sh\n"
+								 "trap 'touch told; exit 75' TERM\n"
+								 "touch ready\n"
+								 "[ -e told ] || while :; do sleep 0.05; done\n"
+								 "exit 1\n";
+	bool cancelled = false;
+	const struct campaign_watch watch = {NULL, cancel_when_ready, &cancelled};
+	struct experiment e;
+	struct campaign c = execute(&e, script, &watch);
+
+	(void)state;
+	assert_true(cancelled && c.stopping);
+	assert_int_equal(c.tasks[0].state, TASK_INTERRUPTED);
+	assert_int_equal(c.tasks[1].state, TASK_WAITING);
+	campaign_clean(&c);
+	experiment_clean(&e);
+	c = execute(&e, script, NULL);
+	assert_false(c.stopping);
+	assert_int_equal(c.tasks[1].state, TASK_FAILED);
+	campaign_clean(&c);
+	experiment_clean(&e);
+}
+
 static void a_config_is_written_for_each_run(void **state)
 {
 	struct experiment e;
@@ -208,6 +308,10 @@ int main(void)
 		TEST(a_run_that_is_refused_time_after_time_is_left),
 		TEST(a_program_that_is_not_there_fails_with_the_reason_in_the_log),
 		TEST(the_first_interrupt_stops_the_runs_and_the_second_ends_the_wait),
+		TEST(what_crashes_is_tried_again_as_often_as_asked),
+		TEST(enough_failures_start_no_more_runs),
+		TEST(a_run_that_hangs_is_told_to_stop_after_its_time),
+		TEST(a_cancel_stops_this_campaign_and_no_later_one),
 		TEST(a_config_is_written_for_each_run),
 	};
 

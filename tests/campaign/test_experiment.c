@@ -188,10 +188,192 @@ static void a_name_has_what_varies_as_it_was_written(void **state)
 		NULL, 0);
 
 	(void)state;
-	assert_readable(&e.runs[0], "model-dry_slope-22deg_mu_s-tan-25.5deg");
-	assert_readable(&e.runs[1], "model-dry_slope-0.1rad_mu_s-tan-25.5deg");
+	assert_readable(&e.runs[0], "model-dry_slope-22deg");
+	assert_readable(&e.runs[1], "model-dry_slope-0.1rad");
 	assert_readable(&e.runs[2], "mu_s-0.4");
 	experiment_clean(&e);
+}
+
+static void a_name_leaves_out_what_follows_from_the_rest(void **state)
+{
+	struct experiment e = read_good("base: base.yaml\n"
+									"runs:\n"
+									"  - {slope: 22 deg, time.end: 0.3 s, layers: [4, 8]}\n"
+									"  - {slope: 0 deg, time.end: 0.2 s, layers: [4, 8]}\n",
+		NULL, 0);
+
+	(void)state;
+	assert_readable(&e.runs[0], "slope-22deg_layers-4");
+	assert_readable(&e.runs[3], "slope-0deg_layers-8");
+	experiment_clean(&e);
+}
+
+static void a_zip_goes_in_step_and_multiplies_as_one(void **state)
+{
+	struct experiment e =
+		read_good("base: base.yaml\n"
+				  "runs:\n"
+				  "  - zip: {layers: [4, 8, 10], n_ini_guess: [2, 4, 5], slope: 20 deg}\n"
+				  "    time.cfl: [0.3, 0.4]\n",
+			NULL, 0);
+	static const int layers[] = {4, 4, 8, 8, 10, 10};
+
+	(void)state;
+	assert_int_equal(e.run_count, 6);
+	for (size_t i = 0; i < e.run_count; i++) {
+		assert_int_equal(e.runs[i].config.layers, layers[i]);
+		assert_int_equal(e.runs[i].config.n_ini_guess, layers[i] / 2);
+		assert_true(e.runs[i].config.time.cfl == (i % 2 ? 0.4 : 0.3));
+	}
+	assert_readable(&e.runs[5], "layers-10_cfl-0.4");
+	experiment_clean(&e);
+}
+
+static void a_range_has_both_ends_and_round_numbers_between(void **state)
+{
+	struct experiment e =
+		read_good("base: base.yaml\n"
+				  "runs:\n"
+				  "  - time.cfl: {from: 0.1, to: 0.7, steps: 7}\n"
+				  "  - layers: {from: 2, to: 10, steps: 3}\n"
+				  "  - grains.diameter: {from: 1 mm, to: 0.01 mm, steps: 3, scale: log}\n",
+			NULL, 0);
+
+	(void)state;
+	assert_int_equal(e.run_count, 13);
+	assert_string_equal(e.runs[0].settings.items[0].value, "0.1");
+	assert_string_equal(e.runs[2].settings.items[0].value, "0.3");
+	assert_string_equal(e.runs[6].settings.items[0].value, "0.7");
+	assert_int_equal(e.runs[8].config.layers, 6);
+	assert_string_equal(e.runs[11].settings.items[0].value, "0.1 mm");
+	assert_string_equal(e.runs[12].settings.items[0].value, "0.01 mm");
+	experiment_clean(&e);
+}
+
+static const char hypercube[] = "base: base.yaml\n"
+								"runs:\n"
+								"  - sample: {points: 20, seed: 3}\n"
+								"    slope: {from: 20 deg, to: 24 deg}\n"
+								"    rheology.mu_s: {from: 0.3, to: 0.5}\n"
+								"    layers: {from: 3, to: 6}\n"
+								"    time.cfl: [0.3, 0.4]\n";
+
+/* Bit i: a value lies in the i-th of `parts` equal parts. */
+static void note(unsigned *parts, unsigned count, double from, double to, double value)
+{
+	unsigned part = (unsigned)((value - from) / (to - from) * count);
+
+	assert_true(value >= from && value < to && part < count);
+	*parts |= 1U << part;
+}
+
+static void a_latin_hypercube_has_a_point_in_every_part_of_every_range(void **state)
+{
+	struct experiment e = read_good(hypercube, NULL, 0), again = read_good(hypercube, NULL, 0);
+	unsigned slopes = 0, frictions = 0, layers = 0;
+
+	(void)state;
+	assert_int_equal(e.run_count, 40);
+	for (size_t i = 0; i < e.run_count; i += 2) {
+		note(&slopes, 20, 20, 24, atof(e.runs[i].settings.items[0].value)); /* NOLINT */
+		note(&frictions, 20, 0.3, 0.5, e.runs[i].config.rheology.mu_s);
+		note(&layers, 4, 3, 7, e.runs[i].config.layers);
+		assert_string_equal(e.runs[i].hash, again.runs[i].hash);
+		assert_true(e.runs[i].config.slope == e.runs[i + 1].config.slope);
+	}
+	assert_int_equal(slopes, 0xFFFFF);
+	assert_int_equal(frictions, 0xFFFFF);
+	assert_int_equal(layers, 0xF);
+	assert_readable(&e.runs[0], "point-1_cfl-0.3");
+	experiment_clean(&e);
+	experiment_clean(&again);
+}
+
+static void another_seed_draws_other_points(void **state)
+{
+	struct experiment e = read_good(hypercube, NULL, 0), other;
+	char text[sizeof hypercube];
+
+	(void)state;
+	memcpy(text, hypercube, sizeof text);
+	*strchr(strstr(text, "seed"), '3') = '4';
+	other = read_good(text, NULL, 0);
+	assert_string_not_equal(e.runs[0].hash, other.runs[0].hash);
+	experiment_clean(&e);
+	experiment_clean(&other);
+}
+
+static void more_points_of_sobol_keep_those_that_were_drawn(void **state)
+{
+	static const char format[] = "base: base.yaml\n"
+								 "runs:\n"
+								 "  - sample: {method: sobol, points: %d, seed: 5}\n"
+								 "    slope: {from: 20 deg, to: 24 deg}\n"
+								 "    grains.diameter: {from: 0.5 mm, to: 1 mm, scale: log}\n";
+	char few[512], many[512];
+	struct experiment e, more;
+	unsigned slopes = 0;
+
+	(void)state;
+	(void)snprintf(few, sizeof few, format, 16);
+	(void)snprintf(many, sizeof many, format, 64);
+	e = read_good(few, NULL, 0);
+	more = read_good(many, NULL, 0);
+	assert_int_equal(e.run_count, 16);
+	assert_int_equal(more.run_count, 64);
+	for (size_t i = 0; i < e.run_count; i++) {
+		assert_string_equal(e.runs[i].hash, more.runs[i].hash);
+		note(&slopes, 8, 20, 24, atof(e.runs[i].settings.items[0].value)); /* NOLINT */
+	}
+	assert_int_equal(slopes, 0xFF);
+	experiment_clean(&e);
+	experiment_clean(&more);
+}
+
+static void what_makes_no_axis_is_refused_with_its_place(void **state)
+{
+	static const char *const cases[][2] = {
+		{"slope: {from: 1 deg, to: 2 deg}",
+			"study.yaml:2:16: slope: a range needs its 'steps', or a 'sample' beside it"},
+		{"slope: {from: 1 deg, steps: 2}", "study.yaml:2:16: slope: a range lacks its 'to'"},
+		{"slope: {from: 1 deg, to: 2 rad, steps: 2}",
+			"study.yaml:2:34: to: 2 rad has another unit than 1 deg"},
+		{"slope: {from: 1 deg, to: 1 deg, steps: 2}",
+			"study.yaml:2:34: to: a range of one value; write the value instead"},
+		{"slope: {from: tan(1 deg), to: 2 deg, steps: 2}",
+			"study.yaml:2:23: from: tan(1 deg) is not a number, or a number and its unit"},
+		{"slope: {from: 1 deg, to: 2 deg, steps: 1}",
+			"study.yaml:2:48: steps: 1 is not a whole number from 2 to 10000"},
+		{"slope: {from: 1 deg, to: 2 deg, step: 3}",
+			"study.yaml:2:41: unknown key 'step'; did you mean 'steps'?"},
+		{"slope: {from: 0 deg, to: 2 deg, steps: 3, scale: log}",
+			"study.yaml:2:23: from: a log scale has only values above 0"},
+		{"slope: {from: 1 deg, to: 2 deg, steps: 3, scale: cubic}",
+			"study.yaml:2:58: scale: cubic is not one of linear, log"},
+		{"layers: {from: 2, to: 5, steps: 3}",
+			"study.yaml:2:17: layers: 3.5 is not a whole number"},
+		{"zip: {layers: [1, 2], slope: [1 deg, 2 deg, 3 deg]}",
+			"study.yaml:2:38: slope: 3 values, and 2 of another key in this zip"},
+		{"zip: {layers: [1, 2]}, layers: 3", "study.yaml:2:32: duplicate key 'layers'"},
+		{"zip: [1]", "study.yaml:2:14: zip: a mapping of config keys is wanted here"},
+		{"sample: {points: 4}, layers: [1, 2]",
+			"study.yaml:2:17: sample: no range of this entry is without 'steps', to be sampled"},
+		{"sample: {seed: 4}, layers: {from: 1, to: 2}",
+			"study.yaml:2:17: sample: a sample lacks its 'points'"},
+		{"sample: {points: 2, method: dice}, layers: {from: 1, to: 2}",
+			"study.yaml:2:37: method: dice is not one of latin-hypercube, sobol"},
+		{"sample: {points: 0}, layers: {from: 1, to: 2}",
+			"study.yaml:2:26: points: 0 is not a whole number from 1 to 10000"},
+	};
+	char text[512];
+
+	(void)state;
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+		(void)snprintf(text, sizeof text, "base: base.yaml\nruns: [{%s}]\n", cases[i][0]);
+		assert_refused(text, cases[i][1]);
+	}
+	assert_refused("base: base.yaml\nset: {slope: {from: 1 deg, to: 2 deg, steps: 2}}\n",
+		"study.yaml:2:14: slope: one value is wanted here; ranges belong into runs");
 }
 
 static void keys_that_end_alike_are_written_in_full(void **state)
@@ -396,6 +578,13 @@ int main(void)
 		TEST(equal_runs_are_merged),
 		TEST(repeats_come_after_one_another),
 		TEST(a_name_has_what_varies_as_it_was_written),
+		TEST(a_name_leaves_out_what_follows_from_the_rest),
+		TEST(a_zip_goes_in_step_and_multiplies_as_one),
+		TEST(a_range_has_both_ends_and_round_numbers_between),
+		TEST(a_latin_hypercube_has_a_point_in_every_part_of_every_range),
+		TEST(another_seed_draws_other_points),
+		TEST(more_points_of_sobol_keep_those_that_were_drawn),
+		TEST(what_makes_no_axis_is_refused_with_its_place),
 		TEST(keys_that_end_alike_are_written_in_full),
 		TEST(long_names_are_cut_and_stay_apart),
 		TEST(a_folder_is_found_by_hash_whatever_its_name_begins_with),

@@ -11,7 +11,7 @@ masked talus campaign run -j 1 study.yaml
 echo "exit $?"
 masked talus campaign run -j 1 study.yaml
 echo "exit $?"
-talus campaign run -j 1 --retry study.yaml >/dev/null 2>&1
+talus campaign run -j 1 --retry 1 study.yaml >/dev/null 2>&1
 grep -h -o 'attempt 2: [a-z]*' results/study/*/run.log
-talus campaign run --dry-run --retry study.yaml | mask
+talus campaign run --dry-run --retry 9 study.yaml | mask
 masked talus-tables study.yaml | sed -E 's/(Made by talus) .*/\1 BUILD/; s/(Made on) .*/\1 HOST/'

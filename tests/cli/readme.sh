@@ -29,7 +29,7 @@ grep -c . read.py
 block sh 1 >read.sh
 grep -c . read.sh
 bash read.sh | grep -c 'front_velocity'
-grep '^    bin/talus campaign.*--dry-run' "$readme" | sed 's|^ *bin/||' | bash | tail -n 1
+grep '^    bin/talus campaign.*--dry-run' "$readme" | sed 's|^ *bin/||' | bash | tail -n 1 | sed 's/, about.*//'
 grep -oE '(`|^    )make [a-z0-9-]+' "$readme" | sed 's/.*make //' | sort -u | while read -r target; do
 	make -C "$TALUS_ROOT" -n "$target" >/dev/null 2>&1 || echo "no target $target"
 done

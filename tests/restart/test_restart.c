@@ -138,6 +138,147 @@ static void the_cadence_of_series_and_profiles_changes_no_number(void **state)
 	free(times.values);
 }
 
+/* As a long run that had its end from the start, for ends that fall everywhere between the steps. */
+static void a_later_end_goes_on_to_the_bits_of_the_long_run(void **state)
+{
+	static const char rest[] = "output.series_every=0.03;output.profiles_at=[0.05]";
+
+	(void)state;
+	for (int i = 0; i < 40; i++) {
+		char settings[128], name[32], straight[32], kept[64];
+		double end = 0.05 + 0.003 * i;
+		struct config config;
+
+		(void)snprintf(name, sizeof name, "continued-%d", i);
+		(void)snprintf(straight, sizeof straight, "straight-%d", i);
+		(void)snprintf(settings, sizeof settings, "%s;time.end=%g", rest, end);
+		config = logistic_config(settings);
+		must_execute(&config, name);
+		(void)snprintf(
+			settings, sizeof settings, "%s;time.end=%g", rest, end + 0.001 * (1 + i * i));
+		config = logistic_config(settings);
+		must_execute(&config, name);
+		must_execute(&config, straight);
+		assert_same_bits(straight, name);
+		(void)snprintf(kept, sizeof kept, "%s/run.end-%g.h5", name, end);
+		assert_true(file_exists(in_folder(kept)));
+	}
+}
+
+/* Count the steps that an attempt takes, by a model that dies at one that is done already. */
+static void a_later_end_computes_no_step_again_but_the_shared_ones(void **state)
+{
+	struct config config = logistic_config("time.end=0.5;output.profiles_at=[]"),
+				  later = logistic_config("time.end=1;output.profiles_at=[]");
+	struct run_summary first;
+	struct error err = {0};
+
+	(void)state;
+	must_execute(&config, "a");
+	assert_int_equal(run_file_peek(in_folder("a/run.h5"), &first, &err), 0);
+	logistic.fail = first.step - 2; /* the last two were shared */
+	must_execute(&later, "a");
+}
+
+static void a_stop_anywhere_in_a_longer_run_changes_no_bit(void **state)
+{
+	struct config config = logistic_config("time.end=0.4"), later = logistic_config("time.end=0.7");
+
+	(void)state;
+	must_execute(&later, "straight");
+	logistic.number = SIGTERM;
+	/* from within the short run, over its shared steps, to the end of the long one */
+	for (uint64_t step = 25; step < 55; step++) {
+		char name[32];
+		int code;
+
+		(void)snprintf(name, sizeof name, "stopped-%llu", (unsigned long long)step);
+		logistic.raise_at[0] = step;
+		code = execute_in_child(&config, name, false);
+		assert_true(code == EX_INTERRUPTED || code == 0);
+		code = execute_in_child(&later, name, false);
+		assert_true(code == EX_INTERRUPTED || code == 0);
+		logistic.raise_at[0] = step + 2;
+		code = execute_in_child(&later, name, false);
+		assert_true(code == EX_INTERRUPTED || code == 0);
+		must_execute(&later, name);
+		assert_same_bits("straight", name);
+	}
+}
+
+static void an_end_that_moves_twice_changes_no_bit(void **state)
+{
+	struct config config = logistic_config("time.end=0.4"),
+				  later = logistic_config("time.end=0.402"), last = logistic_config("time.end=0.9");
+
+	(void)state;
+	must_execute(&config, "a");
+	must_execute(&later, "a");
+	must_execute(&last, "a");
+	must_execute(&last, "straight");
+	assert_same_bits("straight", "a");
+	assert_true(file_exists(in_folder("a/run.end-0.4.h5")));
+	assert_true(file_exists(in_folder("a/run.end-0.402.h5")));
+}
+
+static int execute_from(const struct config *config, const char *name, const char *from)
+{
+	const struct run_options options = {.from = from};
+	struct error err = {0};
+
+	return run_execute_model(&logistic_model, config, in_folder(name), &options, &err);
+}
+
+static void a_run_can_begin_with_that_of_another_folder_which_stays(void **state)
+{
+	struct config config = logistic_config("time.end=0.4"), later = logistic_config("time.end=0.9");
+	struct run_summary summary;
+	struct error err = {0};
+
+	(void)state;
+	must_execute(&config, "short");
+	assert_int_equal(run_file_peek(in_folder("short/run.h5"), &summary, &err), 0);
+	must_execute(&later, "straight");
+	logistic.fail = summary.step - 2;
+	assert_int_equal(execute_from(&later, "long", in_folder("short")), 0);
+	assert_same_bits("straight", "long");
+	assert_int_equal(run_file_peek(in_folder("short/run.h5"), &summary, &err), 0);
+	assert_true(summary.time == 0.4 && summary.status == RUN_COMPLETE);
+}
+
+static void what_is_no_beginning_is_not_gone_on_from(void **state)
+{
+	static const char *const others[] = {
+		"time.end=0.9", "time.end=1.5", "time.end=0.4;time.cfl=0.5"};
+	struct config config = logistic_config("time.end=0.9");
+
+	(void)state;
+	must_execute(&config, "straight");
+	for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+		struct config other = logistic_config(others[i]);
+		char first[32], second[32];
+
+		(void)snprintf(first, sizeof first, "other-%zu", i);
+		(void)snprintf(second, sizeof second, "run-%zu", i);
+		must_execute(&other, first);
+		assert_int_equal(execute_from(&config, second, in_folder(first)), 0);
+		assert_same_bits("straight", second);
+	}
+	assert_int_equal(execute_from(&config, "run-absent", in_folder("absent")), 0);
+}
+
+static void an_earlier_end_is_refused(void **state)
+{
+	struct config config = logistic_config("time.end=0.9"), other = logistic_config("time.end=0.4");
+	struct error err = {0};
+
+	(void)state;
+	must_execute(&config, "a");
+	assert_int_equal(execute(&other, "a", false, &err), -1);
+	assert_int_equal(err.code, EX_DATAERR);
+	assert_non_null(strstr(err.text, "time.end: 0.9 s -> 0.4 s"));
+}
+
 static void a_run_whose_newest_file_is_gone_resumes(void **state)
 {
 	struct config config = logistic_config("checkpoint.every_steps=5");
@@ -217,6 +358,13 @@ int main(void)
 		TEST(kills_between_checkpoints_change_no_bit),
 		TEST(the_checkpoint_cadence_changes_no_bit),
 		TEST(the_cadence_of_series_and_profiles_changes_no_number),
+		TEST(a_later_end_goes_on_to_the_bits_of_the_long_run),
+		TEST(a_later_end_computes_no_step_again_but_the_shared_ones),
+		TEST(a_stop_anywhere_in_a_longer_run_changes_no_bit),
+		TEST(an_end_that_moves_twice_changes_no_bit),
+		TEST(a_run_can_begin_with_that_of_another_folder_which_stays),
+		TEST(what_is_no_beginning_is_not_gone_on_from),
+		TEST(an_earlier_end_is_refused),
 		TEST(a_run_whose_newest_file_is_gone_resumes),
 		TEST(a_damaged_newest_file_falls_back_without_losing_the_good_one),
 		TEST(two_damaged_files_are_65_and_stay),

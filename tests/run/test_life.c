@@ -162,6 +162,36 @@ static void a_failed_run_starts_anew_only_when_told(void **state)
 	assert_int_equal(report_of("a").attempts, 2);
 }
 
+static void the_end_of_every_attempt_is_kept_with_its_reason(void **state)
+{
+	struct config config = logistic_config("checkpoint.every_steps=10");
+	struct text history = {0};
+	struct error err = {0};
+
+	(void)state;
+	logistic.number = SIGKILL;
+	logistic.raise_at[0] = 15;
+	assert_int_equal(execute_in_child(&config, "a", false), -SIGKILL);
+	logistic.number = SIGTERM;
+	assert_int_equal(execute_in_child(&config, "a", false), EX_INTERRUPTED);
+	logistic.raise_at[0] = 0;
+	logistic.fail = 25;
+	assert_int_equal(execute(&config, "a", false, &err), -1);
+	assert_int_equal(report_of("a").failures, 1);
+	logistic.fail = 0;
+	err = (struct error){0};
+	assert_int_equal(execute(&config, "a", true, &err), 0);
+	run_report_history(in_folder("a"), &history);
+	assert_contains(
+		text_string(&history), " attempt 1: ended without a word: killed, or the machine");
+	assert_contains(
+		text_string(&history), " attempt 2: interrupted: stopped by SIGTERM after step 15");
+	assert_contains(text_string(&history), " attempt 3: failed: step 25 at t = ");
+	assert_contains(text_string(&history), " attempt 4: complete\n");
+	text_clean(&history);
+	assert_int_equal(report_of("a").failures, 1);
+}
+
 static void a_time_step_that_is_no_number_ends_the_run(void **state)
 {
 	struct config config = logistic_config("");
@@ -244,6 +274,7 @@ int main(void)
 		TEST(a_failure_keeps_the_checkpoint_and_says_when_and_why),
 		TEST(the_state_is_known_without_the_status_file),
 		TEST(a_failed_run_starts_anew_only_when_told),
+		TEST(the_end_of_every_attempt_is_kept_with_its_reason),
 		TEST(a_time_step_that_is_no_number_ends_the_run),
 		TEST(a_locked_run_says_by_whom),
 		TEST(asking_for_the_state_takes_no_lock),
