@@ -20,7 +20,7 @@ enum {
 };
 #define LETTER 5.7
 
-enum { POINTS_MAX = 1200, MAP_ROWS = 160, MAP_COLUMNS = 400, TEXT_MAX = 300 };
+enum { ENTRIES_MAX = 128, POINTS_MAX = 1200, MAP_ROWS = 160, MAP_COLUMNS = 400, TEXT_MAX = 300 };
 
 struct geometry {
 	int columns, rows;
@@ -216,7 +216,7 @@ static bool same_look(const struct figure_line *a, const struct figure_line *b)
 
 /* The entries of the legend of one panel, or of all of them. */
 struct entries {
-	const struct figure_line *items[128]; /* [count] */
+	const struct figure_line *items[ENTRIES_MAX]; /* [count] */
 	size_t count;
 	size_t longest; /* letters of the longest title */
 };
@@ -235,7 +235,7 @@ static void add_entry(struct entries *entries, const struct figure_line *line)
 	for (size_t i = 0; i < entries->count; i++)
 		if (same_entry(entries->items[i], line))
 			return;
-	if (entries->count == sizeof entries->items / sizeof *entries->items)
+	if (entries->count == ENTRIES_MAX)
 		return;
 	entries->items[entries->count++] = line;
 	if (letters(line->title) > entries->longest)

@@ -214,8 +214,12 @@ static int pair_runs(struct layout *layout, struct error *err)
 		NULL, &layout->wanted->baseline, &layout->wanted->reference};
 	bool needed[3] = {false};
 
-	for (size_t i = 0; i < layout->measure_count; i++)
-		needed[layout->measures[i].metric->partner] = true;
+	for (size_t i = 0; i < layout->measure_count; i++) {
+		const struct metric *metric = layout->measures[i].metric;
+
+		if (metric)
+			needed[metric->partner] = true;
+	}
 	for (int kind = PARTNER_BASELINE; kind <= PARTNER_REFERENCE; kind++) {
 		if (!needed[kind])
 			continue;
@@ -329,10 +333,12 @@ static int list_measures(struct layout *layout, struct error *err)
 		const char *nearest;
 		const struct metric *metric = metric_find(names->items[i].text, &nearest);
 
-		if (!metric)
-			return layout_fail(layout, &names->items[i], err,
+		if (!metric) {
+			(void)layout_fail(layout, &names->items[i], err,
 				"unknown metric '%s'; the nearest known one is '%s'", names->items[i].text,
 				nearest);
+			return -1;
+		}
 		if (!metric->profile || !at->count)
 			TRY(add_measure(layout, metric, &names->items[i], NULL, err));
 		for (size_t k = 0; metric->profile && k < at->count; k++)
