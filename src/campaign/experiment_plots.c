@@ -348,7 +348,7 @@ int experiment_plots_read(
 		experiment->plot_count = i + 1;
 		TRY(read_plot(reader, &node->items[i], plot));
 		for (size_t k = 0; k < i; k++)
-			if (!strcmp(experiment->plots[k].name.text, plot->name.text))
+			if (plot->name.text && !strcmp(experiment->plots[k].name.text, plot->name.text))
 				return reader_fail(
 					reader, &node->items[i], "plot '%s' stands here twice", plot->name.text);
 	}
