@@ -198,7 +198,8 @@ static void add_legend(
 		sides[1] - sides[0], sides[3] - sides[2]);
 	for (int i = 0; i < (int)legend->count; i++) {
 		const struct figure_line *line = legend->items[i];
-		double x = start + i / rows * width, y = sides[3] - sides[2] - ENTRY * (i % rows + 0.5);
+		int column = i / rows, row = i % rows;
+		double x = start + column * width, y = sides[3] - sides[2] - ENTRY * (row + 0.5);
 
 		if (line->mark != FIGURE_POINTS) {
 			text_addf(out, "set arrow from %.3f,%.3f to %.3f,%.3f nohead", x, y, x + 26, y);
