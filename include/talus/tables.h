@@ -67,7 +67,7 @@ void table_reference(struct text *out);
 /* NULL if there is none of that name. */
 const struct table_format *table_format_find(const char *name);
 
-/* "text, markdown, csv" */
+/* "text, markdown, csv, ..." */
 void table_format_names(struct text *out);
 
 #endif

@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "campaign/expand.h"
+#include "campaign/experiment_observations.h"
+#include "campaign/experiment_plots.h"
 #include "campaign/range.h"
 #include "campaign/reader.h"
 #include "campaign/sample.h"
@@ -103,6 +105,11 @@ static int read_reference(const struct reader *reader, const struct node *node, 
 	return reader_settings(reader, node, &((struct experiment_table *)target)->reference);
 }
 
+static int read_dimensionless(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_bool(reader, node, &((struct experiment_table *)target)->dimensionless);
+}
+
 static int read_only(const struct reader *reader, const struct node *node, void *target)
 {
 	return reader_settings(reader, node, &((struct experiment_table *)target)->only);
@@ -121,6 +128,8 @@ static const struct reader_key table_keys[] = {
 	{"at", read_at, "profile times of the metrics that are taken at one (default: the end)"},
 	{"only", read_only,
 		"config keys and values: runs without them are left out (default: all runs)"},
+	{"dimensionless", read_dimensionless,
+		"true: lengths, times and velocities divided as a plot does (default: false)"},
 };
 
 static int read_table(
@@ -157,6 +166,16 @@ static int read_tables(const struct reader *reader, const struct node *node, voi
 					reader, &node->items[i], "table '%s' stands here twice", table->name.text);
 	}
 	return 0;
+}
+
+static int read_observations(const struct reader *reader, const struct node *node, void *target)
+{
+	return experiment_observations_read(reader, node, ((struct form *)target)->experiment);
+}
+
+static int read_plots(const struct reader *reader, const struct node *node, void *target)
+{
+	return experiment_plots_read(reader, node, ((struct form *)target)->experiment);
 }
 
 static int read_published(const struct reader *reader, const struct node *node, void *target)
@@ -198,6 +217,8 @@ static const struct reader_key form_keys[] = {
 	{"timing", read_timing,
 		"true: one run at a time and in the order of the file, for CPU times (default: false)"},
 	{"tables", read_tables, "a list of tables, see below"},
+	{"plots", read_plots, "a list of plots, see below"},
+	{"observations", read_observations, "a list of files of measured values, see below"},
 	{"published", read_published,
 		"per name of a table, its published values: a list of rows, null where blank"},
 };
@@ -218,6 +239,8 @@ void experiment_reference(struct text *out)
 	reader_reference(out, "A range", range_keys, RANGE_KEYS);
 	reader_reference(out, "A sample", sample_keys, SAMPLE_KEYS);
 	reader_reference(out, "A table", table_keys, sizeof table_keys / sizeof *table_keys);
+	experiment_plots_reference(out);
+	experiment_observations_reference(out);
 }
 
 static int read_form(const struct reader *reader, struct form *form)
@@ -244,14 +267,11 @@ static int read_form(const struct reader *reader, struct form *form)
 static int load_base(
 	const struct reader *reader, struct experiment *experiment, const struct node *base)
 {
-	const char *slash = strrchr(experiment->path, '/');
-	int directory = base->text[0] != '/' && slash ? (int)(slash + 1 - experiment->path) : 0;
 	FILE *file;
 
-	if (asprintf(&experiment->base, "%.*s%s", directory, experiment->path, base->text) < 0) {
-		experiment->base = NULL;
+	experiment->base = reader_file(reader, base->text);
+	if (!experiment->base)
 		return error_memory(reader->err, strlen(experiment->path) + strlen(base->text));
-	}
 	experiment->base_root = calloc(1, sizeof *experiment->base_root);
 	if (!experiment->base_root)
 		return error_memory(reader->err, sizeof *experiment->base_root);
@@ -340,6 +360,8 @@ void experiment_clean(struct experiment *experiment)
 		table_clean(&experiment->tables[i]);
 	free(experiment->runs);
 	free(experiment->tables);
+	experiment_plots_clean(experiment);
+	experiment_observations_clean(experiment);
 	free(experiment->path);
 	free(experiment->folder);
 	free(experiment->base);

@@ -10,6 +10,7 @@
 
 #include "cli/commands.h"
 #include "config/quantity.h"
+#include "talus/plots.h"
 #include "talus/tables.h"
 
 static const struct campaign_action *const actions[] = {&campaign_action_run,
@@ -182,7 +183,7 @@ static int act(const struct campaign_action *action, const struct campaign_argum
 
 	if (experiment_read(&experiment, arguments->experiment, arguments->folder,
 			arguments->settings.list, arguments->settings.count, &err) ||
-		table_check(&experiment, &err))
+		table_check(&experiment, &err) || plots_check(&experiment, &err))
 		code = command_fail(&err);
 	else
 		code = action->main(arguments, &experiment);

@@ -69,6 +69,16 @@ static void add_markdown(struct text *out, const char *string)
 	text_add(out, " |");
 }
 
+void format_note_lines(const struct table *table, const char *mark, struct text *out)
+{
+	for (const char *line = text_string(&table->notes); *line;) {
+		size_t length = strcspn(line, "\n");
+
+		text_addf(out, "%s%.*s\n", mark, (int)length, line);
+		line += length + (line[length] == '\n');
+	}
+}
+
 static void print_markdown(const struct table *table, struct text *out)
 {
 	text_addf(out, "**%s**\n\n|", text_string(&table->title));
@@ -93,12 +103,7 @@ static void print_markdown(const struct table *table, struct text *out)
 		}
 	}
 	text_add(out, "\n\n");
-	for (const char *line = text_string(&table->notes); *line;) {
-		size_t length = strcspn(line, "\n");
-
-		text_addf(out, "- %.*s\n", (int)length, line);
-		line += length + (line[length] == '\n');
-	}
+	format_note_lines(table, "- ", out);
 }
 
 /* RFC 4180: quotes where a field holds a comma, a quote or a line end; lines end in CR LF. */
@@ -168,6 +173,8 @@ static const struct table_format formats[] = {
 	{"text", false, format_text},
 	{"markdown", false, print_markdown},
 	{"csv", true, print_csv},
+	{"latex", false, format_latex},
+	{"json", true, format_json},
 };
 
 const struct table_format *table_format_find(const char *name)

@@ -216,32 +216,201 @@ static int l2_difference(const struct sample *sample, double *out, struct error 
 	return difference(sample, 2, out, err);
 }
 
+/* The last moment at which some layer was faster than the static speed. */
+static int stopping_time(const struct sample *sample, double *out, struct error *err)
+{
+	struct dataset time = {0}, speed = {0};
+	size_t i;
+	int result = -1;
+
+	if (read_values(sample->file, "time", &time, err) ||
+		read_values(sample->file, "max_speed", &speed, err))
+		goto done;
+	i = dataset_count(&speed);
+	while (i > 0 && speed.values[i - 1] < sample->config->output.static_speed)
+		i--;
+	if (i == dataset_count(&speed)) {
+		error_set(err, EX_DATAERR, "it still flows at the end");
+		goto done;
+	}
+	*out = i < dataset_count(&time) ? time.values[i] : NAN;
+	result = 0;
+done:
+	free(time.values);
+	free(speed.values);
+	return result;
+}
+
+static int final_thickness(const struct sample *sample, double *out, struct error *err)
+{
+	return series_last(sample, "max_thickness", out, err);
+}
+
+/* The greatest velocity of the front and when. At the release it jumps to the next cell, which is no flow. */
+static int front_peak(
+	const struct sample *sample, double *velocity, double *when, struct error *err)
+{
+	const double settled = 0.04; /* s: the window of 0.02 s has left the release behind */
+	struct dataset time = {0}, front = {0};
+	int result = -1;
+
+	*velocity = *when = NAN;
+	if (read_values(sample->file, "time", &time, err) ||
+		read_values(sample->file, "front_velocity", &front, err))
+		goto done;
+	for (size_t i = 0; i < dataset_count(&front) && i < dataset_count(&time); i++)
+		if (time.values[i] >= settled && !(front.values[i] <= *velocity)) {
+			*velocity = front.values[i];
+			*when = time.values[i];
+		}
+	result = 0;
+done:
+	free(time.values);
+	free(front.values);
+	return result;
+}
+
+static int front_velocity(const struct sample *sample, double *out, struct error *err)
+{
+	double when;
+
+	return front_peak(sample, out, &when, err);
+}
+
+static int front_velocity_time(const struct sample *sample, double *out, struct error *err)
+{
+	double velocity;
+
+	return front_peak(sample, &velocity, out, err);
+}
+
+/* A value between those of a rising axis; up to `edge` beyond its ends it is that of the end. */
+static int interpolate(const double *axis, const double *values, size_t count, double edge,
+	double at, double *out, struct error *err)
+{
+	size_t i = 0;
+	double share;
+
+	if (!count || at < axis[0] - edge || at > axis[count - 1] + edge)
+		return error_set(err, EX_DATAERR, "observed at %g, where the run has no values", at);
+	while (i + 2 < count && axis[i + 1] < at)
+		i++;
+	share = count == 1 ? 0 : fmin(1, fmax(0, (at - axis[i]) / (axis[i + 1] - axis[i])));
+	*out = count == 1 ? values[0] : values[i] + (values[i + 1] - values[i]) * share;
+	return isfinite(*out)
+			   ? 0
+			   : error_set(err, EX_DATAERR, "observed at %g, where ours is no number", at);
+}
+
+/* ||ours - observed|| / ||observed - level|| in percent, in l2 over the observed places, by trapezoids. */
+static int distance(const struct observed_line *line, const double *axis, const double *values,
+	size_t count, double edge, double level, double *out, struct error *err)
+{
+	double apart = 0, size = 0;
+
+	for (size_t i = 0; i < line->count; i++) {
+		double left = i ? line->at[i] - line->at[i - 1] : 0;
+		double right = i + 1 < line->count ? line->at[i + 1] - line->at[i] : 0;
+		double weight = 0.5 * (left + right), ours = NAN;
+
+		TRY(interpolate(axis, values, count, edge, line->at[i], &ours, err));
+		apart += weight * (ours - line->values[i]) * (ours - line->values[i]);
+		size += weight * (line->values[i] - level) * (line->values[i] - level);
+	}
+	if (size <= 0)
+		return error_set(err, EX_DATAERR, "the observations are level: nothing to be relative to");
+	*out = 100 * sqrt(apart / size);
+	return 0;
+}
+
+/* The domain goes half a cell beyond the middles of its cells. */
+static double half_cell(const struct dataset *x)
+{
+	return dataset_count(x) > 1 ? 0.500001 * (x->values[1] - x->values[0]) : INFINITY;
+}
+
+/* P1 Figure 13, relative to what was observed above the erodible bed, as the differences of Table 9 are. */
+static int l2_observed(const struct sample *sample, double *out, struct error *err)
+{
+	struct observed_line line = {0};
+	struct dataset x = {0};
+	double *h = NULL;
+	size_t cells = 0;
+	int result = -1;
+
+	if (!observed_line(sample->observed, "h", sample->at, &line, err) &&
+		!read_thickness(sample->file, sample->at, &h, &cells, err) &&
+		!read_values(sample->file, "x", &x, err))
+		result = cells == dataset_count(&x)
+					 ? distance(&line, x.values, h, cells, half_cell(&x),
+						   sample->config->erodible_bed_thickness, out, err)
+					 : error_set(err, EX_DATAERR, "dataset 'h' is not as long as 'x'");
+	observed_line_clean(&line);
+	free(h);
+	free(x.values);
+	return result;
+}
+
+/* Relative to the way that the front was observed to go from the gate. */
+static int front_observed(const struct sample *sample, double *out, struct error *err)
+{
+	struct observed_line line = {0};
+	struct dataset time = {0}, front = {0};
+	int result = -1;
+
+	if (!observed_line(sample->observed, "front_position", 0, &line, err) &&
+		!read_values(sample->file, "time", &time, err) &&
+		!read_values(sample->file, "front_position", &front, err))
+		result = dataset_count(&time) == dataset_count(&front)
+					 ? distance(&line, time.values, front.values, dataset_count(&time), 0,
+						   sample->config->initial.front, out, err)
+					 : error_set(err, EX_DATAERR, "'front_position' is not as long as 'time'");
+	observed_line_clean(&line);
+	free(time.values);
+	free(front.values);
+	return result;
+}
+
 static const struct metric metrics[] = {
-	{"iterations", "iterations", 0, PARTNER_NONE, false, iterations,
+	{"iterations", "iterations", "", 0, PARTNER_NONE, false, NULL, iterations,
 		"the greatest number of iterations of the pressure solver in a step"},
-	{"coarse-iterations", "coarse iterations", 0, PARTNER_NONE, false, coarse_iterations,
+	{"coarse-iterations", "coarse iterations", "", 0, PARTNER_NONE, false, NULL, coarse_iterations,
 		"the same of the coarse system behind the first guess"},
-	{"cpu-seconds", "CPU s", -1, PARTNER_NONE, false, cpu_seconds,
+	{"cpu-seconds", "CPU", "s", -1, PARTNER_NONE, false, NULL, cpu_seconds,
 		"CPU time of the whole run, all attempts"},
-	{"ns-per-unknown", "ns/cell/layer/step", -1, PARTNER_NONE, false, ns_per_unknown,
-		"CPU time of the whole run over cells, layers and steps, in nanoseconds"},
-	{"residual", "residual", -1, PARTNER_NONE, false, residual,
+	{"ns-per-unknown", "CPU", "ns/cell/layer/step", -1, PARTNER_NONE, false, NULL, ns_per_unknown,
+		"CPU time of the whole run over cells, layers and steps"},
+	{"residual", "residual", "", -1, PARTNER_NONE, false, NULL, residual,
 		"the greatest true relative residual of the pressure system in a step"},
-	{"speed-up", "speed-up", 2, PARTNER_BASELINE, false, speed_up,
+	{"speed-up", "speed-up", "", 2, PARTNER_BASELINE, false, NULL, speed_up,
 		"CPU time of the `baseline` run over that of this one"},
-	{"step-share-transport", "step 1 %", 1, PARTNER_NONE, false, share_transport,
+	{"step-share-transport", "step 1", "%", 1, PARTNER_NONE, false, NULL, share_transport,
 		"share of step 1, transport, in the CPU time"},
-	{"step-share-friction", "step 2 %", 1, PARTNER_NONE, false, share_friction,
+	{"step-share-friction", "step 2", "%", 1, PARTNER_NONE, false, NULL, share_friction,
 		"share of step 2, friction"},
-	{"step-share-pressure", "step 3 %", 1, PARTNER_NONE, false, share_pressure,
+	{"step-share-pressure", "step 3", "%", 1, PARTNER_NONE, false, NULL, share_pressure,
 		"share of step 3, non-hydrostatic pressure"},
-	{"steps", "steps", 0, PARTNER_NONE, false, steps, "number of time steps"},
-	{"runout", "runout m", 3, PARTNER_NONE, false, runout,
+	{"steps", "steps", "", 0, PARTNER_NONE, false, NULL, steps, "number of time steps"},
+	{"runout", "runout", "m", 3, PARTNER_NONE, false, NULL, runout,
 		"final position of the front, from the gate"},
-	{"l1-difference", "l1 %", 2, PARTNER_REFERENCE, true, l1_difference,
+	{"stopping-time", "stopping time", "s", 3, PARTNER_NONE, false, NULL, stopping_time,
+		"the last time at which some layer is faster than output.static_speed"},
+	{"final-thickness", "final thickness", "m", 4, PARTNER_NONE, false, NULL, final_thickness,
+		"the greatest thickness at the end"},
+	{"front-velocity", "fastest front", "m/s", 3, PARTNER_NONE, false, NULL, front_velocity,
+		"the greatest velocity of the front after its first 0.04 s"},
+	{"front-velocity-time", "fastest at", "s", 3, PARTNER_NONE, false, NULL, front_velocity_time,
+		"when the front has that velocity"},
+	{"l2-observed", "l2 from observed", "%", 2, PARTNER_NONE, true, "h", l2_observed,
+		"difference in thickness from observations at a profile time, as l2-difference"},
+	{"front-observed", "front from observed", "%", 2, PARTNER_NONE, false, "front_position",
+		front_observed,
+		"difference of the front from observations over time, relative to its way from the gate"},
+	{"l1-difference", "l1", "%", 2, PARTNER_REFERENCE, true, NULL, l1_difference,
 		"difference in thickness from the `reference` run, over the mass above the bed: l1 norm, "
 		"at a profile time"},
-	{"l2-difference", "l2 %", 2, PARTNER_REFERENCE, true, l2_difference, "the same in the l2 norm"},
+	{"l2-difference", "l2", "%", 2, PARTNER_REFERENCE, true, NULL, l2_difference,
+		"the same in the l2 norm"},
 };
 
 const struct metric *metric_find(const char *name, const char **nearest)

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "tables/observed.h"
 #include "talus/config.h"
 #include "talus/error.h"
 #include "talus/run_file.h"
@@ -15,16 +16,19 @@ enum metric_partner { PARTNER_NONE, PARTNER_BASELINE, PARTNER_REFERENCE };
 struct sample {
 	struct run_file *file;
 	const struct config *config;
-	struct run_file *partner; /* of the kind the metric asks for, else NULL */
-	double at;                /* profile time, s */
+	struct run_file *partner;        /* of the kind the metric asks for, else NULL */
+	double at;                       /* profile time, s */
+	const struct observed *observed; /* that have the dataset the metric observes, else NULL */
 };
 
 struct metric {
 	const char *name;   /* as an experiment calls it */
-	const char *header; /* with its unit */
+	const char *header; /* what it is */
+	const char *unit;   /* "" if none */
 	int decimals;       /* -1: three significant digits */
 	enum metric_partner partner;
-	bool profile; /* taken at a profile time */
+	bool profile;         /* taken at a profile time */
+	const char *observes; /* dataset that is compared with observations, NULL: none */
 	/* EX_DATAERR where the file lacks what is needed. */
 	int (*value)(const struct sample *sample, double *out, struct error *err);
 	const char *meaning; /* for the reference */

@@ -9,14 +9,14 @@ time: {end: 0.2 s, cfl: 0.5}
 output: {profiles_at: [0.1 s, 0.2 s]}
 END
 
-# A collapse of some seconds of computing, for what happens in the middle of a run.
+# A collapse of some seconds of computing (the slowest solver), for what happens in the middle of a run.
 cat >long.yaml <<'END'
 slope: 22 deg
 erodible_bed_thickness: 1.82 mm
 layers: 8
 domain: {x_min: -0.2 m, x_max: 3 m, cells: 640, right: outflow}
 time: {end: 1 s, cfl: 0.2}
-pressure_solver: {start: previous}
+pressure_solver: {method: block-gauss-seidel, criterion: increment, start: previous}
 END
 
 mask() # FILE...: digits of hashes, times and processes

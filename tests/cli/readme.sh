@@ -23,6 +23,9 @@ grep -c . run.sh
 bash run.sh >run.out 2>run.err
 echo "exit $?"
 tail -n 1 run.out
+commands 'Figures' >figures.sh
+grep -c . figures.sh
+bash figures.sh 2>&1 | grep figures/
 block python 1 >read.py
 grep -c . read.py
 /usr/bin/python3 read.py | sed 's/\([0-9]\.[0-9]\)[0-9]*/\1/g'
