@@ -38,4 +38,4 @@ echo "exit $?"
 mask out
 sed -E 's/base-[0-9a-f]*/RUN/; s/t = .*/t = T/' err
 grep -h -o -E 'attempt 2: resumed at step [1-9]|campaign: stopped.*' results/endless/*/run.log | sed 's/[1-9]$/N/'
-talus campaign status --json endless.yaml | grep -o '"state": "[a-z]*", "progress": 0.0'
+talus campaign status --json endless.yaml | grep -o '"state": "[a-z]*", "progress": 0\.'
