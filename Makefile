@@ -3,7 +3,7 @@
 ifeq ($(origin CC),default)
 CC := gcc
 endif
-PKGS := hdf5 yaml-0.1 libxxhash
+PKGS := hdf5 yaml-0.1 libxxhash gsl
 BUILD ?= build
 BIN ?= bin
 LIB ?= libtalus.a

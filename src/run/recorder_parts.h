@@ -19,6 +19,7 @@ struct recorder {
 	const struct config *config;
 	struct axes axes;
 	size_t cells, layers;
+	bool watches_steps; /* observes every step, recorded or not */
 	struct history history;
 
 	size_t rows, capacity;
@@ -33,6 +34,14 @@ struct recorder {
 	double *after;             /* the largest field, after the step */
 	size_t next_profile;       /* index into output.profiles_at */
 };
+
+/* The axes of a profile: NULL and 1 for one that it does not have. */
+struct recorder_axes {
+	const char *up, *x;
+	size_t ups, xs;
+};
+
+struct recorder_axes recorder_axes(const struct recorder *recorder, const struct profile *profile);
 
 int recorder_reserve_rows(struct recorder *recorder, size_t rows, struct error *err);
 int recorder_reserve_profiles(struct recorder *recorder, size_t rows, struct error *err);
