@@ -41,7 +41,7 @@ SELECTED = $(if $(TESTS),$(sort $(foreach word,$(TESTS),$(foreach test,$1,$(if $
 
 .DEFAULT_GOAL := all
 .PHONY: all lib programs deps quickstart check test asan ubsan valgrind coverage clang tidy format \
-	format-check symbols bench soak tables install clean distclean help $(EXPERIMENTS)
+	format-check symbols bench soak tables figures install clean distclean help $(EXPERIMENTS)
 .SECONDARY:
 .DELETE_ON_ERROR:
 
@@ -103,15 +103,19 @@ deps:
 ## quickstart: install what is missing, build, run a small campaign and print its table
 quickstart: CAMPAIGN_FLAGS = -j $(JOBS)
 quickstart $(filter-out quickstart,$(EXPERIMENTS)):
-	@scripts/deps build
+	@scripts/deps build $(if $(shell grep -s '^plots:' experiments/$@.yaml),plot)
 	$(Q)$(MAKE) $(SUB) all
 	$(Q)failed=0; $(BIN)/talus campaign run experiments/$@.yaml $(CAMPAIGN_FLAGS) || failed=$$?; \
-	[ $$failed -le 1 ] && $(BIN)/talus-tables experiments/$@.yaml && \
+	[ $$failed -le 1 ] && \
+	{ ! grep -q '^tables:' experiments/$@.yaml || $(BIN)/talus-tables experiments/$@.yaml; } && \
+	{ ! grep -q '^plots:' experiments/$@.yaml || $(BIN)/talus plot experiments/$@.yaml; } && \
 	echo "run files: results/$@/*/run.h5" && exit $$failed
 
 ## tables: every experiment that has tables: run what is not finished, print the tables
-tables:
-	$(Q)for name in $(patsubst experiments/%.yaml,%,$(shell grep -ls '^tables:' experiments/*.yaml)); do \
+## figures: every experiment that has plots: run what is not finished, draw the figures
+tables figures:
+	$(Q)for name in $(patsubst experiments/%.yaml,%,$(shell \
+		grep -ls '^$(if $(filter figures,$@),plots,tables):' experiments/*.yaml)); do \
 		$(MAKE) $(SUB) $$name || exit; done
 
 ## check: install what is missing, build and run every test (TESTS=word: those with the word in the path)
@@ -227,7 +231,7 @@ distclean: clean
 help:
 	@sed -n 's/^## \([a-z0-9-]*\): /\1\t/p' $(firstword $(MAKEFILE_LIST)) | \
 		awk -F '\t' '{ printf "  %-14s %s\n", $$1, $$2 }'
-	@echo; echo "An experiment runs by its name, which finishes what is not finished and prints its tables:"
+	@echo; echo "An experiment runs by its name, which finishes what is not finished, prints its tables and draws its plots:"
 	@for name in $(EXPERIMENTS); do \
 		printf '  %-14s %s\n' $$name "$$(sed -n 's/^title: *//p' experiments/$$name.yaml)"; done
 	@echo; echo "Variables: V=1 shows commands, CC, CFLAGS, OPT, BUILD, BIN, LIB, PREFIX, JOBS, CAMPAIGN_FLAGS"

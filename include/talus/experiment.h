@@ -56,6 +56,44 @@ struct experiment_table {
 	const struct node *published;  /* rows of columns of metrics, NULL: none */
 };
 
+/* Published values that a panel shows beside ours. */
+struct experiment_points {
+	const char *title;     /* of the legend, "": that of the source */
+	struct term_list line; /* values of `lines`: drawn in the colour of that line; may be empty */
+	double *x, *y;         /* in the units of the axes, [count] */
+	size_t count;
+};
+
+/* A panel of a figure as the file asks for it; src/plots gives it its meaning. */
+struct experiment_panel {
+	struct term kind;
+	const char *title;          /* "": made from what it shows */
+	struct term_list y;         /* datasets, or metrics */
+	struct term x;              /* what they are drawn over, where the kind leaves a choice */
+	struct term_list at;        /* profile times; empty: the last */
+	struct term_list at_x;      /* positions */
+	struct term_list layer;     /* numbers of layers, or of interfaces, from the bed */
+	struct term_list lines;     /* keys in whose values the lines differ */
+	struct term_list split;     /* the same for panels: one for every value */
+	struct term_list log;       /* axes with a logarithmic scale */
+	struct term_list ranges[2]; /* of x and y: two numbers each, or empty */
+	struct term units[2];       /* of x and y; text NULL: SI */
+	const char *labels[2];      /* of x and y; "": made from what is drawn */
+	bool dimensionless;         /* lengths by h_0, times by tau_c, velocities by v_0 */
+	struct setting_list baseline, reference, only; /* as those of a table */
+	const struct node *names;                      /* legend names of values, NULL: none */
+	struct experiment_points *published;           /* [published_count] */
+	size_t published_count;
+};
+
+struct experiment_plot {
+	struct term name;
+	const char *title;               /* "": that of the experiment */
+	int columns;                     /* panels beside one another; 0: as fits */
+	struct experiment_panel *panels; /* [panel_count] */
+	size_t panel_count;
+};
+
 struct experiment {
 	char *path;        /* of its file, as given */
 	char *folder;      /* that holds the run folders */
@@ -67,6 +105,8 @@ struct experiment {
 	size_t run_count;
 	struct experiment_table *tables; /* [table_count] */
 	size_t table_count;
+	struct experiment_plot *plots; /* [plot_count] */
+	size_t plot_count;
 
 	char *base; /* path of the base config, and its text */
 	char *base_text;

@@ -40,6 +40,9 @@ bool text_to_integer(const char *string, int *value);
  * characters '?', and what does not fit `size` bytes ends in "...". Returns `buffer`. */
 char *text_excerpt(const char *string, char *buffer, size_t size);
 
+/* Bytes of the UTF-8 character at `start`, 0 if there is none (overlong, surrogate, cut short). */
+size_t text_character_size(const char *start);
+
 /* Edit distance (insert, delete, substitute, swap neighbours), for "did you mean". Strings longer
  * than 63 bytes count as infinitely far apart. */
 int text_distance(const char *a, const char *b);

@@ -155,3 +155,22 @@ int text_distance(const char *a, const char *b)
 	}
 	return row[1][m];
 }
+
+size_t text_character_size(const char *start)
+{
+	const unsigned char *string = (const unsigned char *)start;
+	size_t size = string[0] < 0x80   ? 1
+				  : string[0] < 0xC2 ? 0
+				  : string[0] < 0xE0 ? 2
+				  : string[0] < 0xF0 ? 3
+				  : string[0] < 0xF5 ? 4
+									 : 0;
+
+	for (size_t i = 1; i < size; i++)
+		if ((string[i] & 0xC0) != 0x80)
+			return 0;
+	if ((string[0] == 0xE0 && string[1] < 0xA0) || (string[0] == 0xED && string[1] > 0x9F) ||
+		(string[0] == 0xF0 && string[1] < 0x90) || (string[0] == 0xF4 && string[1] > 0x8F))
+		return 0;
+	return size;
+}

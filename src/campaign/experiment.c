@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "campaign/expand.h"
+#include "campaign/experiment_plots.h"
 #include "campaign/reader.h"
 #include "campaign/setting.h"
 
@@ -154,6 +155,11 @@ static int read_tables(const struct reader *reader, const struct node *node, voi
 	return 0;
 }
 
+static int read_plots(const struct reader *reader, const struct node *node, void *target)
+{
+	return experiment_plots_read(reader, node, ((struct form *)target)->experiment);
+}
+
 static int read_published(const struct reader *reader, const struct node *node, void *target)
 {
 	(void)target; /* handed to the tables when all of them are known */
@@ -192,6 +198,7 @@ static int read_form(const struct reader *reader, struct form *form)
 		{"repeat", read_repeat},
 		{"timing", read_timing},
 		{"tables", read_tables},
+		{"plots", read_plots},
 		{"published", read_published},
 	};
 	struct experiment *experiment = form->experiment;
@@ -312,6 +319,7 @@ void experiment_clean(struct experiment *experiment)
 		table_clean(&experiment->tables[i]);
 	free(experiment->runs);
 	free(experiment->tables);
+	experiment_plots_clean(experiment);
 	free(experiment->path);
 	free(experiment->folder);
 	free(experiment->base);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/commands.h"
+#include "talus/plots.h"
 #include "talus/tables.h"
 
 static const char help[] =
@@ -125,7 +126,7 @@ static int act(const struct action *action, const struct campaign_arguments *arg
 
 	if (experiment_read(&experiment, arguments->experiment, arguments->folder,
 			arguments->settings.list, arguments->settings.count, &err) ||
-		table_check(&experiment, &err))
+		table_check(&experiment, &err) || plots_check(&experiment, &err))
 		code = command_fail(&err);
 	else
 		code = action->main(arguments, &experiment);

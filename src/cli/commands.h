@@ -10,10 +10,11 @@ extern const struct command command_info;
 extern const struct command command_diff;
 extern const struct command command_verify;
 extern const struct command command_campaign;
+extern const struct command command_plot;
 extern const struct command command_tables;
 
 #define COMMANDS                                                                                   \
 	&command_check, &command_run, &command_info, &command_diff, &command_verify,                   \
-		&command_campaign, &command_tables,
+		&command_campaign, &command_plot, &command_tables,
 
 #endif

@@ -175,9 +175,11 @@ static int attribute_error(struct run_file *file, const char *name, struct error
 		"attribute '%s' is absent or not of the right type", name);
 }
 
-int run_file_text(struct run_file *file, const char *name, struct text *out, struct error *err)
+/* Add the text attribute of an object. */
+static int read_text(
+	struct run_file *file, hid_t object, const char *name, struct text *out, struct error *err)
 {
-	hid_t id = H5Aopen(file->id, name, H5P_DEFAULT), type = id < 0 ? -1 : H5Aget_type(id);
+	hid_t id = H5Aopen(object, name, H5P_DEFAULT), type = id < 0 ? -1 : H5Aget_type(id);
 	size_t size = type < 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0
 					  ? 0
 					  : H5Tget_size(type);
@@ -198,6 +200,24 @@ int run_file_text(struct run_file *file, const char *name, struct text *out, str
 	if (id >= 0)
 		(void)H5Aclose(id);
 	return result;
+}
+
+int run_file_text(struct run_file *file, const char *name, struct text *out, struct error *err)
+{
+	return read_text(file, file->id, name, out, err);
+}
+
+void run_file_dataset_text(
+	struct run_file *file, const char *path, const char *name, struct text *out)
+{
+	hid_t id = H5Dopen2(file->id, path, H5P_DEFAULT);
+	struct error absent = {0};
+
+	if (id < 0)
+		return;
+	if (H5Aexists(id, name) > 0)
+		(void)read_text(file, id, name, out, &absent);
+	(void)H5Dclose(id);
 }
 
 int run_file_real(struct run_file *file, const char *name, double *out, struct error *err)
@@ -318,6 +338,31 @@ size_t run_file_scale_length(struct run_file *file, const char *path, int axis)
 		(void)H5DSiterate_scales(id, (unsigned)axis, NULL, read_scale, &length);
 	(void)H5Dclose(id);
 	return length;
+}
+
+static herr_t read_scale_name(hid_t dataset, unsigned axis, hid_t scale, void *out)
+{
+	char name[256];
+
+	(void)dataset;
+	(void)axis;
+	if (H5Iget_name(scale, name, sizeof name) <= 0)
+		return -1;
+	text_add(out, name + (name[0] == '/'));
+	return 1; /* the first is enough */
+}
+
+void run_file_scale_name(struct run_file *file, const char *path, int axis, struct text *out)
+{
+	hid_t id = H5Dopen2(file->id, path, H5P_DEFAULT);
+
+	if (id < 0)
+		return;
+	if (H5DSis_scale(id) > 0)
+		(void)read_scale_name(id, 0, id, out);
+	else
+		(void)H5DSiterate_scales(id, (unsigned)axis, NULL, read_scale_name, out);
+	(void)H5Dclose(id);
 }
 
 bool run_file_has(struct run_file *file, const char *path)

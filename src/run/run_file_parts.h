@@ -28,6 +28,13 @@ bool run_file_has(struct run_file *file, const char *path);
 /* The length of the scale that axis `axis` of a dataset has; 0 without a scale. */
 size_t run_file_scale_length(struct run_file *file, const char *path, int axis);
 
+/* Text attribute `name` ("units", "long_name") of a dataset; nothing is added where it has none. */
+void run_file_dataset_text(
+	struct run_file *file, const char *path, const char *name, struct text *out);
+
+/* The name of the scale that axis `axis` of a dataset has; nothing is added without one. */
+void run_file_scale_name(struct run_file *file, const char *path, int axis, struct text *out);
+
 /* Read a dataset of exactly `count` values. EX_DATAERR. */
 int run_file_fill(
 	struct run_file *file, const char *path, double *values, size_t count, struct error *err);

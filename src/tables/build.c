@@ -1,125 +1,18 @@
-/* One builder for every table: measure each run, gather the repeats of a cell, lay the cells out. */
+/* One builder for every table: gather the repeats of a cell, lay the cells out. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "tables/layout.h"
-#include "tables/provenance.h"
-#include "talus/run.h"
-#include "talus/run_file.h"
+#include "tables/measured.h"
 #include "talus/tables.h"
 
 struct builder {
 	const struct experiment *experiment;
 	const struct layout *layout;
 	struct table *table;
-	double *values; /* [runs][measures], NaN: missing */
-	struct provenance provenance;
-	/* the partner opened last: neighbouring runs share it as a rule */
-	struct run_file *partner;
-	size_t partner_index;
+	struct measured measured;
 };
-
-static void tell_missing(
-	struct builder *builder, const struct experiment_run *run, const char *why, const char *reason)
-{
-	text_addf(&builder->table->missing, "table '%s': run %s: %s%s%s\n", builder->table->name,
-		run->id, why, *reason ? ": " : "", reason);
-}
-
-/* Open a run's file if the run is complete; NULL if not, and `tell` says whether to say so. */
-static struct run_file *open_run(
-	struct builder *builder, const struct experiment_run *run, bool tell)
-{
-	struct run_report report;
-	struct run_file *file = NULL;
-	struct text warning = {0};
-	struct error err = {0};
-
-	run_report_read(run->folder, &report);
-	if (report.state != RUN_STATE_COMPLETE) {
-		if (tell)
-			tell_missing(builder, run, run_state_name(report.state), report.reason);
-		return NULL;
-	}
-	if (run_file_open_newest(run->folder, &file, &warning, &err) && tell) {
-		char message[sizeof err.text + sizeof err.file + 32];
-
-		tell_missing(builder, run, "damaged", error_format(&err, message, sizeof message));
-	}
-	if (file && warning.length)
-		text_addf(&builder->table->notes, "%s: %s\n", run->id, text_string(&warning));
-	text_clean(&warning);
-	return file;
-}
-
-static struct run_file *open_partner(struct builder *builder, size_t index)
-{
-	if (builder->partner && builder->partner_index == index)
-		return builder->partner;
-	run_file_close(builder->partner);
-	builder->partner = open_run(builder, &builder->experiment->runs[index], false);
-	builder->partner_index = index;
-	return builder->partner;
-}
-
-static void measure(struct builder *builder, size_t index, struct run_file *file,
-	const struct measure *measure, double *value)
-{
-	const struct experiment_run *run = &builder->experiment->runs[index];
-	const struct metric *metric = measure->metric;
-	struct sample sample = {file, &run->config, NULL, measure->at};
-	struct error err = {0};
-
-	if (isnan(sample.at))
-		sample.at = run->config.time.end;
-	if (metric->partner != PARTNER_NONE) {
-		size_t partner = builder->layout->places[index].partner[metric->partner];
-
-		sample.partner = partner == index ? file : open_partner(builder, partner);
-		if (!sample.partner) {
-			tell_missing(builder, run, "lacks the run it is compared with",
-				builder->experiment->runs[partner].id);
-			return;
-		}
-	}
-	if (metric->value(&sample, value, &err)) {
-		*value = NAN;
-		tell_missing(builder, run, metric->name, err.text);
-	} else if (!isfinite(*value)) {
-		*value = NAN;
-		tell_missing(builder, run, metric->name, "is not a number");
-	}
-}
-
-static int measure_runs(struct builder *builder, struct error *err)
-{
-	const struct layout *layout = builder->layout;
-	size_t runs = builder->experiment->run_count, measures = layout->measure_count;
-
-	builder->values = calloc(runs * measures, sizeof *builder->values);
-	if (!builder->values)
-		return error_memory(err, runs * measures * sizeof *builder->values);
-	for (size_t i = 0; i < runs * measures; i++)
-		builder->values[i] = NAN;
-	for (size_t i = 0; i < runs; i++) {
-		struct run_file *file;
-
-		if (layout->places[i].row == LAYOUT_NOWHERE)
-			continue;
-		file = open_run(builder, &builder->experiment->runs[i], true);
-		if (!file)
-			continue;
-		for (size_t m = 0; m < measures; m++)
-			measure(builder, i, file, &layout->measures[m], &builder->values[i * measures + m]);
-		provenance_add(&builder->provenance, file);
-		run_file_close(file);
-	}
-	run_file_close(builder->partner);
-	builder->partner = NULL;
-	return 0;
-}
 
 static int compare(const void *a, const void *b)
 {
@@ -137,7 +30,7 @@ static struct table_cell gather(
 	bool asked = false;
 
 	for (size_t i = 0; i < builder->experiment->run_count; i++) {
-		double value = builder->values[i * layout->measure_count + m];
+		double value = builder->measured.values[i * layout->measure_count + m];
 
 		if (layout->places[i].row != row || layout->places[i].column != column)
 			continue;
@@ -184,7 +77,8 @@ static int add_number_column(
 	for (size_t k = 0; k < layout->columns.keys; k++)
 		TRY(add_head(out, last_part(layout->wanted->columns.items[k].text),
 			layout->columns.items[column].parts[k], err));
-	TRY(add_head(out, "", measure->metric->header, err));
+	TRY(*measure->metric->unit ? add_head(out, measure->metric->header, measure->metric->unit, err)
+							   : add_head(out, "", measure->metric->header, err));
 	if (measure->at_text)
 		TRY(add_head(out, "at", measure->at_text, err));
 	return *source ? add_head(out, "", source, err) : 0;
@@ -311,7 +205,8 @@ static void write_notes(const struct builder *builder, const char *command)
 {
 	struct text *notes = &builder->table->notes;
 
-	provenance_print(&builder->provenance, builder->experiment->timing, notes);
+	text_add(notes, text_string(&builder->measured.warnings));
+	provenance_print(&builder->measured.provenance, builder->experiment->timing, notes);
 	text_addf(notes, "Again with: %s\n", command);
 }
 
@@ -323,9 +218,12 @@ int table_build(struct table *table, const struct experiment *experiment,
 	int result = -1;
 
 	*table = (struct table){.name = wanted->name.text};
-	if (layout_create(&layout, experiment, wanted, err) || measure_runs(&builder, err) ||
-		add_columns(&builder, err) || fill_cells(&builder, err))
+	if (layout_create(&layout, experiment, wanted, "table", err) ||
+		measured_make(&builder.measured, &layout, err) || add_columns(&builder, err) ||
+		fill_cells(&builder, err))
 		goto done;
+	table->missing = builder.measured.missing;
+	builder.measured.missing = (struct text){0};
 	write_title(&builder);
 	write_notes(&builder, command);
 	if (table->title.failed || table->notes.failed || table->missing.failed)
@@ -333,8 +231,7 @@ int table_build(struct table *table, const struct experiment *experiment,
 	else
 		result = 0;
 done:
-	free(builder.values);
-	provenance_clean(&builder.provenance);
+	measured_clean(&builder.measured);
 	layout_clean(&layout);
 	return result;
 }
@@ -343,7 +240,7 @@ int table_check(const struct experiment *experiment, struct error *err)
 {
 	for (size_t i = 0; i < experiment->table_count; i++) {
 		struct layout layout;
-		int result = layout_create(&layout, experiment, &experiment->tables[i], err);
+		int result = layout_create(&layout, experiment, &experiment->tables[i], "table", err);
 
 		layout_clean(&layout);
 		TRY(result);

@@ -9,10 +9,7 @@
 #include "config/quantity.h"
 #include "talus/config.h"
 
-static int fail_at(const struct layout *layout, const struct term *term, struct error *err,
-	const char *format, ...) __attribute__((format(printf, 4, 5)));
-
-static int fail_at(const struct layout *layout, const struct term *term, struct error *err,
+int layout_fail(const struct layout *layout, const struct term *term, struct error *err,
 	const char *format, ...)
 {
 	char message[1024];
@@ -21,19 +18,18 @@ static int fail_at(const struct layout *layout, const struct term *term, struct 
 	va_start(args, format);
 	(void)vsnprintf(message, sizeof message, format, args);
 	va_end(args);
-	return error_at(err, EX_DATAERR, layout->experiment->path, term->line, term->column,
-		"table '%s': %s", layout->wanted->name.text, message);
+	return error_at(err, EX_DATAERR, layout->experiment->path, term->line, term->column, "%s: %s",
+		layout->what, message);
 }
 
-/* Give a placeless error the place of `term`. */
-static int place_error(const struct layout *layout, const struct term *term, struct error *err)
+int layout_place_error(const struct layout *layout, const struct term *term, struct error *err)
 {
 	const struct error lower = *err;
 
 	if (err->code != EX_DATAERR || err->file[0])
 		return -1;
 	*err = (struct error){0};
-	return fail_at(layout, term, err, "%s", lower.text);
+	return layout_fail(layout, term, err, "%s", lower.text);
 }
 
 /* The value of a key: its author's text where the run has one that is in force. */
@@ -78,7 +74,7 @@ static int label_make(const struct layout *layout, const struct experiment_run *
 		if (config_value(&run->config, keys->items[i].text, &value, err)) {
 			text_clean(&value);
 			text_clean(&identity);
-			(void)place_error(layout, &keys->items[i], err);
+			(void)layout_place_error(layout, &keys->items[i], err);
 			return -1;
 		}
 		text_addf(&identity, "%s\n", text_string(&value));
@@ -166,7 +162,7 @@ static int fail_empty(const struct layout *layout, struct error *err)
 	for (size_t i = 0; i < layout->experiment->run_count; i++)
 		TRY(experiment_vary(
 			layout->experiment, &layout->experiment->runs[i], &layout->wanted->only, &config, err));
-	return fail_at(layout, &layout->wanted->name, err, "no run has the values of its 'only'");
+	return layout_fail(layout, &layout->wanted->name, err, "no run has the values of its 'only'");
 }
 
 static int place_runs(struct layout *layout, struct error *err)
@@ -213,10 +209,10 @@ static int refuse_crowds(const struct layout *layout, struct error *err)
 		if (*holder == LAYOUT_NOWHERE)
 			*holder = (long)i;
 		else if (strcmp(runs[*holder].hash, runs[i].hash) != 0)
-			result = fail_at(layout, &layout->wanted->name, err,
-				"runs %s and %s fall into one cell; rows, columns or only must name what "
-				"they differ in",
-				runs[*holder].id, runs[i].id);
+			result = layout_fail(layout, &layout->wanted->name, err,
+				"runs %s and %s fall into one %s or only must name what they differ in",
+				runs[*holder].id, runs[i].id,
+				layout->what[0] == 'p' ? "line; lines, split" : "cell; rows, columns");
 	}
 	free(first);
 	return result;
@@ -237,7 +233,7 @@ static int find_partners(struct layout *layout, enum metric_partner kind, const 
 		TRY(experiment_vary(experiment, run, change, &config, err));
 		TRY(experiment_find(experiment, &config, run->repeat, index, err));
 		if (*index == experiment->run_count)
-			return fail_at(layout, &layout->wanted->name, err,
+			return layout_fail(layout, &layout->wanted->name, err,
 				"the %s of run %s is not a run of this experiment", noun, run->id);
 	}
 	return 0;
@@ -256,14 +252,14 @@ static int pair_runs(struct layout *layout, struct error *err)
 		if (!needed[kind])
 			continue;
 		if (!changes[kind]->count)
-			return fail_at(layout, &layout->wanted->name, err, "it lacks its '%s'", nouns[kind]);
+			return layout_fail(
+				layout, &layout->wanted->name, err, "it lacks its '%s'", nouns[kind]);
 		TRY(find_partners(layout, (enum metric_partner)kind, nouns[kind], changes[kind], err));
 	}
 	return 0;
 }
 
-/* A time at which some run of the table stores no profile would leave its cell missing for ever. */
-static int check_profile(const struct layout *layout, const struct term *term, double at,
+int layout_check_time(const struct layout *layout, const struct term *term, double at,
 	const char *at_text, struct error *err)
 {
 	for (size_t i = 0; i < layout->experiment->run_count; i++) {
@@ -274,7 +270,7 @@ static int check_profile(const struct layout *layout, const struct term *term, d
 		for (int k = 0; k < times->count; k++)
 			found |= times->values[k] == (isnan(at) ? config->time.end : at);
 		if (layout->places[i].row != LAYOUT_NOWHERE && !found)
-			return fail_at(layout, term, err, "run %s has no %s in its output.profiles_at",
+			return layout_fail(layout, term, err, "run %s has no %s in its output.profiles_at",
 				layout->experiment->runs[i].id, at_text);
 	}
 	return 0;
@@ -287,10 +283,10 @@ static int add_measure(struct layout *layout, const struct metric *metric, const
 
 	*measure = (struct measure){metric, NAN, at ? at->text : NULL};
 	if (at && quantity_read(at->text, "s", &measure->at, err))
-		return place_error(layout, at, err);
-	return metric->profile
-			   ? check_profile(layout, at ? at : name, measure->at, at ? at->text : "time.end", err)
-			   : 0;
+		return layout_place_error(layout, at, err);
+	return metric->profile ? layout_check_time(layout, at ? at : name, measure->at,
+								 at ? at->text : "time.end", err)
+						   : 0;
 }
 
 /* Every metric once, those of a profile once for every time. */
@@ -298,7 +294,7 @@ static int list_measures(struct layout *layout, struct error *err)
 {
 	const struct term_list *names = &layout->wanted->metrics, *at = &layout->wanted->at;
 
-	layout->measures = calloc(names->count * (at->count + 1), sizeof *layout->measures);
+	layout->measures = calloc(names->count * (at->count + 1) + 1, sizeof *layout->measures);
 	if (!layout->measures)
 		return error_memory(err, names->count * (at->count + 1) * sizeof *layout->measures);
 	for (size_t i = 0; i < names->count; i++) {
@@ -306,7 +302,7 @@ static int list_measures(struct layout *layout, struct error *err)
 		const struct metric *metric = metric_find(names->items[i].text, &nearest);
 
 		if (!metric)
-			return fail_at(layout, &names->items[i], err,
+			return layout_fail(layout, &names->items[i], err,
 				"unknown metric '%s'; the nearest known one is '%s'", names->items[i].text,
 				nearest);
 		if (!metric->profile || !at->count)
@@ -318,9 +314,13 @@ static int list_measures(struct layout *layout, struct error *err)
 }
 
 int layout_create(struct layout *layout, const struct experiment *experiment,
-	const struct experiment_table *wanted, struct error *err)
+	const struct experiment_table *wanted, const char *noun, struct error *err)
 {
 	*layout = (struct layout){.experiment = experiment, .wanted = wanted};
+	if (asprintf(&layout->what, "%s '%s'", noun, wanted->name.text) < 0) {
+		layout->what = NULL;
+		return error_memory(err, strlen(wanted->name.text));
+	}
 	layout->places = calloc(experiment->run_count, sizeof *layout->places);
 	if (!layout->places)
 		return error_memory(err, experiment->run_count * sizeof *layout->places);
@@ -345,5 +345,6 @@ void layout_clean(struct layout *layout)
 	free(layout->measures);
 	free(layout->places);
 	free(layout->published);
+	free(layout->what);
 	*layout = (struct layout){0};
 }

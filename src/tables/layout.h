@@ -37,6 +37,7 @@ struct place {
 struct layout {
 	const struct experiment *experiment;
 	const struct experiment_table *wanted;
+	char *what; /* "table 'p1-table2'", for messages */
 	struct label_list rows, columns;
 	struct measure *measures; /* [measure_count] */
 	size_t measure_count;
@@ -44,12 +45,24 @@ struct layout {
 	const char **published; /* [rows][columns][measures], NULL: blank; NULL if there are none */
 };
 
-/* EX_DATAERR with the place in the experiment file where it asks for what cannot be. Clean in every
- * case. */
+/* EX_DATAERR with the place in the experiment file where it asks for what cannot be. `noun` says in
+ * messages what is laid out: "table". Clean in every case. */
 int layout_create(struct layout *layout, const struct experiment *experiment,
-	const struct experiment_table *wanted, struct error *err);
+	const struct experiment_table *wanted, const char *noun, struct error *err);
 
 void layout_clean(struct layout *layout);
+
+/* EX_DATAERR at the place of `term`. Returns -1. */
+int layout_fail(const struct layout *layout, const struct term *term, struct error *err,
+	const char *format, ...) __attribute__((format(printf, 4, 5)));
+
+/* Give a placeless error the place of `term`. Returns -1. */
+int layout_place_error(const struct layout *layout, const struct term *term, struct error *err);
+
+/* Refuse a time (NaN: the end) at which some run that has a place stores no profile: what is shown of
+ * it would be missing for ever. */
+int layout_check_time(const struct layout *layout, const struct term *term, double at,
+	const char *at_text, struct error *err);
 
 /* Read the published values: src/tables/published.c. */
 int layout_read_published(struct layout *layout, struct error *err);

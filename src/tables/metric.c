@@ -201,17 +201,17 @@ static int l2_difference(const struct sample *sample, double *out, struct error 
 }
 
 static const struct metric metrics[] = {
-	{"iterations", "iterations", 0, PARTNER_NONE, false, iterations},
-	{"coarse-iterations", "coarse iterations", 0, PARTNER_NONE, false, coarse_iterations},
-	{"cpu-seconds", "CPU s", -1, PARTNER_NONE, false, cpu_seconds},
-	{"speed-up", "speed-up", 2, PARTNER_BASELINE, false, speed_up},
-	{"step-share-transport", "step 1 %", 1, PARTNER_NONE, false, share_transport},
-	{"step-share-friction", "step 2 %", 1, PARTNER_NONE, false, share_friction},
-	{"step-share-pressure", "step 3 %", 1, PARTNER_NONE, false, share_pressure},
-	{"steps", "steps", 0, PARTNER_NONE, false, steps},
-	{"runout", "runout m", 3, PARTNER_NONE, false, runout},
-	{"l1-difference", "l1 %", 2, PARTNER_REFERENCE, true, l1_difference},
-	{"l2-difference", "l2 %", 2, PARTNER_REFERENCE, true, l2_difference},
+	{"iterations", "iterations", "", 0, PARTNER_NONE, false, iterations},
+	{"coarse-iterations", "coarse iterations", "", 0, PARTNER_NONE, false, coarse_iterations},
+	{"cpu-seconds", "CPU", "s", -1, PARTNER_NONE, false, cpu_seconds},
+	{"speed-up", "speed-up", "", 2, PARTNER_BASELINE, false, speed_up},
+	{"step-share-transport", "step 1", "%", 1, PARTNER_NONE, false, share_transport},
+	{"step-share-friction", "step 2", "%", 1, PARTNER_NONE, false, share_friction},
+	{"step-share-pressure", "step 3", "%", 1, PARTNER_NONE, false, share_pressure},
+	{"steps", "steps", "", 0, PARTNER_NONE, false, steps},
+	{"runout", "runout", "m", 3, PARTNER_NONE, false, runout},
+	{"l1-difference", "l1", "%", 2, PARTNER_REFERENCE, true, l1_difference},
+	{"l2-difference", "l2", "%", 2, PARTNER_REFERENCE, true, l2_difference},
 };
 
 const struct metric *metric_find(const char *name, const char **nearest)

@@ -21,7 +21,8 @@ struct sample {
 
 struct metric {
 	const char *name;   /* as an experiment calls it */
-	const char *header; /* with its unit */
+	const char *header; /* what it is */
+	const char *unit;   /* "" if none */
 	int decimals;       /* -1: three significant digits */
 	enum metric_partner partner;
 	bool profile; /* taken at a profile time */

@@ -1,0 +1,433 @@
+#include "plots/kind.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "config/quantity.h"
+#include "plots/meaning.h"
+#include "plots/slice.h"
+#include "run/run_file_parts.h"
+
+enum { TIMES_MAX = 9 }; /* that "all" shows: more lines cannot be told apart */
+
+static const char *const part_names[KIND_PARTS] = {
+	[KIND_Y] = "y", [KIND_AT] = "at", [KIND_AT_X] = "at_x", [KIND_LAYER] = "layer"};
+
+static int place_error(const char *path, const struct term *term, struct error *err)
+{
+	const struct error lower = *err;
+
+	if (err->code != EX_DATAERR || err->file[0])
+		return -1;
+	*err = (struct error){0};
+	return error_at(err, EX_DATAERR, path, term->line, term->column, "%s", lower.text);
+}
+
+static int read_quantities(const struct term_list *terms, const char *unit, const char *path,
+	double **values, size_t *count, struct error *err)
+{
+	*values = calloc(terms->count + 1, sizeof **values);
+	if (!*values)
+		return error_memory(err, (terms->count + 1) * sizeof **values);
+	for (size_t i = 0; i < terms->count; i++)
+		if (quantity_read(terms->items[i].text, unit, &(*values)[i], err))
+			return place_error(path, &terms->items[i], err);
+	*count = terms->count;
+	return 0;
+}
+
+static int read_layers(
+	struct kind_cuts *cuts, const struct term_list *terms, const char *path, struct error *err)
+{
+	cuts->layers = calloc(terms->count + 1, sizeof *cuts->layers);
+	if (!cuts->layers)
+		return error_memory(err, (terms->count + 1) * sizeof *cuts->layers);
+	for (size_t i = 0; i < terms->count; i++) {
+		const struct term *term = &terms->items[i];
+
+		if (!strcmp(term->text, "top"))
+			cuts->layers[i] = SLICE_TOP;
+		else if (!text_to_integer(term->text, &cuts->layers[i]) || cuts->layers[i] < 1)
+			return error_at(err, EX_DATAERR, path, term->line, term->column,
+				"%s is neither the number of a layer, counted from 1 at the bed, nor top",
+				term->text);
+	}
+	cuts->layer_count = terms->count;
+	return 0;
+}
+
+int kind_cuts_read(struct kind_cuts *cuts, const struct experiment_panel *wanted, const char *path,
+	struct error *err)
+{
+	*cuts = (struct kind_cuts){0};
+	cuts->all_times = wanted->at.count == 1 && !strcmp(wanted->at.items[0].text, "all");
+	if (!cuts->all_times)
+		TRY(read_quantities(&wanted->at, "s", path, &cuts->times, &cuts->time_count, err));
+	TRY(read_quantities(&wanted->at_x, "m", path, &cuts->positions, &cuts->position_count, err));
+	return read_layers(cuts, &wanted->layer, path, err);
+}
+
+void kind_cuts_clean(struct kind_cuts *cuts)
+{
+	free(cuts->times);
+	free(cuts->positions);
+	free(cuts->layers);
+	*cuts = (struct kind_cuts){0};
+}
+
+bool kind_add_dimensions(const struct kind_request *request)
+{
+	for (int part = 0; part < KIND_PARTS; part++) {
+		bool split = false;
+
+		for (size_t i = 0; i < request->wanted->split.count; i++)
+			split |= !strcmp(request->wanted->split.items[i].text, part_names[part]);
+		if (!curves_add_dimension(request->curves, part_names[part], split, part != KIND_Y))
+			return false;
+	}
+	return true;
+}
+
+/* The factor of a unit that the experiment chose. */
+static int read_unit(const char *path, const struct term *shown, const struct meaning *meaning,
+	double *factor, struct error *err)
+{
+	struct text unit = {0}, one = {0};
+	double size;
+	int result;
+
+	meaning_unit(meaning->unit, &unit);
+	text_addf(&one, "1 %s", shown->text);
+	result = quantity_read(text_string(&one), text_string(&unit), &size, err);
+	if (result)
+		(void)place_error(path, shown, err);
+	else
+		*factor = 1 / size;
+	text_clean(&unit);
+	text_clean(&one);
+	return result;
+}
+
+int kind_axis(const struct kind_request *request, const struct kind_run *run, int index,
+	const struct meaning *meaning, double *factor, struct error *err)
+{
+	const struct experiment_panel *wanted = request->wanted;
+	struct figure_axis *axis = index ? &request->curves->y : &request->curves->x;
+	struct meaning all = *meaning;
+
+	*factor = 1;
+	all.dimensionless = wanted->dimensionless && run->config;
+	all.shown = wanted->units[index].text;
+	if (all.dimensionless)
+		*factor = 1 / meaning_scale(all.name, all.unit, run->config);
+	else if (all.shown)
+		TRY(read_unit(request->path, &wanted->units[index], &all, factor, err));
+	if (axis->label.text.length)
+		return 0;
+	if (*wanted->labels[index])
+		text_add(&axis->label.text, wanted->labels[index]);
+	else
+		meaning_label(&all, &axis->label);
+	return axis->label.text.failed ? error_memory(err, axis->label.text.length) : 0;
+}
+
+/* The axis of a dataset, or the dataset itself, as its run file describes it. */
+static int dataset_axis(const struct kind_request *request, const struct kind_run *run, int index,
+	const char *name, double *factor, struct error *err)
+{
+	struct text unit = {0}, words = {0};
+	struct meaning meaning = {.name = name};
+	int result;
+
+	run_file_dataset_text(run->file, name, "units", &unit);
+	run_file_dataset_text(run->file, name, "long_name", &words);
+	meaning.unit = text_string(&unit);
+	meaning.words = text_string(&words);
+	result = kind_axis(request, run, index, &meaning, factor, err);
+	text_clean(&unit);
+	text_clean(&words);
+	return result;
+}
+
+static void multiply(double *values, size_t count, double factor)
+{
+	for (size_t i = 0; i < count; i++)
+		values[i] *= factor;
+}
+
+static int lacks(const struct kind_request *request, const struct kind_run *run, struct error *err)
+{
+	if (err->code != EX_DATAERR && err->code != EX_NOINPUT)
+		return -1;
+	text_addf(request->missing, "%s: run %s: %s\n", request->what, run->name, err->text);
+	*err = (struct error){0};
+	return 0;
+}
+
+/* A curve with its parts set; NULL out of memory. */
+static struct curve *open_curve(
+	const struct kind_request *request, const struct kind_run *run, struct error *err)
+{
+	struct curve *curve = curves_add(request->curves, err);
+
+	for (size_t i = 0; curve && i < run->part_count; i++)
+		if (curves_set_part(curve, i, run->parts[i], err))
+			return NULL;
+	return curve;
+}
+
+static int set_part(const struct kind_run *run, struct curve *curve, enum kind_part part,
+	const char *text, struct error *err)
+{
+	return curves_set_part(curve, run->part_count + (size_t)part, text, err);
+}
+
+/* Heights of the layers of a column: relative ones times the thickness there, where it is known. */
+static int stretch(const struct kind_request *request, const struct kind_run *run,
+	const struct slice_place *place, struct slice *slice, struct error *err)
+{
+	struct slice_place one = *place;
+	struct slice h = {0};
+	struct error none = {0};
+	double factor;
+	bool known;
+
+	one.along = NULL;
+	known = slice_read(run->file, "h", &one, &h, &none) == 0;
+	if (known)
+		multiply(slice->axis, slice->count, h.values[0]);
+	slice_clean(&h);
+	TRY(kind_axis(request, run, 1,
+		known ? &(struct meaning){.name = "z", .unit = "m"}
+			  : &(struct meaning){.name = "relative height", .unit = ""},
+		&factor, err));
+	multiply(slice->axis, slice->count, factor);
+	return 0;
+}
+
+/* The numbers of a slice in the units of the axes, as a curve. */
+static int add_slice(const struct kind_request *request, const struct kind_run *run,
+	const struct kind *kind, const char *name, const struct slice_place *place, struct slice *slice,
+	struct curve *curve, struct error *err)
+{
+	double factor;
+
+	if (!strcmp(place->along, "time"))
+		for (size_t i = 0; i < slice->count && slice->axis[i] < meaning_settles(name); i++)
+			slice->values[i] = NAN;
+	TRY(dataset_axis(request, run, kind->upright ? 0 : 1, name, &factor, err));
+	multiply(slice->values, slice->count, factor);
+	if (kind->upright) {
+		TRY(stretch(request, run, place, slice, err));
+	} else {
+		TRY(dataset_axis(request, run, 0, place->along, &factor, err));
+		multiply(slice->axis, slice->count, factor);
+	}
+	curve->x = kind->upright ? slice->values : slice->axis;
+	curve->y = kind->upright ? slice->axis : slice->values;
+	curve->count = slice->count;
+	*slice = (struct slice){0};
+	return 0;
+}
+
+/* Where a curve is cut out, and what the experiment says of it. */
+struct cut {
+	struct slice_place place;
+	const char *time, *position, *layer; /* texts of the parts, NULL: not chosen */
+};
+
+static int add_cut(const struct kind_request *request, const struct kind_run *run,
+	const struct kind *kind, const char *name, const struct cut *cut, struct error *err)
+{
+	struct slice slice;
+	struct curve *curve;
+	int result = -1;
+
+	if (slice_read(run->file, name, &cut->place, &slice, err)) {
+		slice_clean(&slice);
+		return lacks(request, run, err);
+	}
+	curve = open_curve(request, run, err);
+	if (curve && !set_part(run, curve, KIND_Y, name, err) &&
+		!set_part(run, curve, KIND_AT, cut->time, err) &&
+		!set_part(run, curve, KIND_AT_X, cut->position, err) &&
+		!set_part(run, curve, KIND_LAYER, cut->layer, err))
+		result = add_slice(request, run, kind, name, &cut->place, &slice, curve, err);
+	slice_clean(&slice);
+	return result;
+}
+
+static const char *term_text(const struct term_list *list, size_t i)
+{
+	return i < list->count ? list->items[i].text : NULL;
+}
+
+/* Every position and layer asked for, at one time. */
+static int add_places(const struct kind_request *request, const struct kind_run *run,
+	const struct kind *kind, const char *name, const struct cut *at, struct error *err)
+{
+	const struct kind_cuts *cuts = request->cuts;
+	const struct experiment_panel *wanted = request->wanted;
+	const char *layers = slice_layer_axis(run->file, name);
+	bool has_x = strcmp(at->place.along, "x") != 0 && slice_has_axis(run->file, name, "x");
+	bool has_layers = layers && strcmp(at->place.along, layers) != 0;
+	size_t positions = has_x && cuts->position_count ? cuts->position_count : 1;
+	size_t count = has_layers && cuts->layer_count ? cuts->layer_count : 1;
+
+	for (size_t i = 0; i < positions; i++)
+		for (size_t k = 0; k < count; k++) {
+			struct cut cut = *at;
+
+			if (has_x && cuts->position_count) {
+				cut.place.x = cuts->positions[i];
+				cut.position = term_text(&wanted->at_x, i);
+			}
+			if (has_layers && cuts->layer_count) {
+				cut.place.layer = cuts->layers[k];
+				cut.layer = term_text(&wanted->layer, k);
+			}
+			TRY(add_cut(request, run, kind, name, &cut, err));
+		}
+	return 0;
+}
+
+/* The axis of the dataset that stays: across the layers it is known by two names. */
+static const char *along_of(const struct kind *kind, const struct kind_run *run, const char *name)
+{
+	const char *layers = slice_layer_axis(run->file, name);
+
+	return !strcmp(kind->along, "layer") && layers ? layers : kind->along;
+}
+
+static int add_lines(const struct kind_request *request, const struct kind_run *run,
+	const char *name, const struct kind *kind, struct error *err)
+{
+	const struct kind_cuts *cuts = request->cuts;
+	bool timed =
+		strcmp(kind->along, "profile_time") != 0 && slice_has_axis(run->file, name, "profile_time");
+	struct cut cut = {.place = {along_of(kind, run, name), NAN, NAN, SLICE_FIRST}};
+	double *times = NULL, stride;
+	size_t count = 0;
+	int result = 0;
+
+	if (!timed || (!cuts->all_times && !cuts->time_count))
+		return add_places(request, run, kind, name, &cut, err);
+	if (cuts->all_times && slice_axis(run->file, "profile_time", &times, &count, err))
+		return lacks(request, run, err);
+	if (!cuts->all_times)
+		count = cuts->time_count;
+	/* of very many times some, evenly, with the first and the last */
+	stride = times && count > TIMES_MAX ? (double)(count - 1) / (TIMES_MAX - 1) : 1;
+	for (double place = 0; !result && lround(place) < (long)count; place += stride) {
+		size_t i = (size_t)lround(place);
+		char text[TEXT_REAL_SIZE + 2];
+
+		cut.place.time = times ? times[i] : cuts->times[i];
+		(void)snprintf(text, sizeof text, "%.4g s", cut.place.time);
+		cut.time = times ? text : request->wanted->at.items[i].text;
+		result = add_places(request, run, kind, name, &cut, err);
+	}
+	free(times);
+	return result;
+}
+
+/* Thickness over x and time, say: the whole of a dataset of profile_time by x. */
+static int add_map(const struct kind_request *request, const struct kind_run *run, const char *name,
+	const struct kind *kind, struct error *err)
+{
+	struct figure_map map = {0};
+	struct slice slice = {0};
+	struct curve *curve;
+	struct text unit = {0}, words = {0};
+	struct meaning meaning = {.name = name};
+	double factor;
+	int result = -1;
+
+	if (slice_axis(run->file, "profile_time", &map.y, &map.rows, err))
+		return lacks(request, run, err);
+	for (size_t row = 0; row < map.rows; row++) {
+		struct slice_place place = {kind->along, map.y[row], NAN, SLICE_FIRST};
+
+		slice_clean(&slice);
+		if (slice_read(run->file, name, &place, &slice, err)) {
+			result = lacks(request, run, err);
+			goto done;
+		}
+		if (!map.values) {
+			map.columns = slice.count;
+			map.values = calloc(map.rows * map.columns, sizeof *map.values);
+		}
+		if (!map.values) {
+			error_memory(err, map.rows * map.columns * sizeof *map.values);
+			goto done;
+		}
+		memcpy(map.values + row * map.columns, slice.values, map.columns * sizeof *map.values);
+	}
+	map.x = slice.axis;
+	slice.axis = NULL;
+	curve = open_curve(request, run, err);
+	if (!curve || set_part(run, curve, KIND_Y, name, err) ||
+		dataset_axis(request, run, 0, kind->along, &factor, err))
+		goto done;
+	multiply(map.x, map.columns, factor);
+	if (dataset_axis(request, run, 1, "profile_time", &factor, err))
+		goto done;
+	multiply(map.y, map.rows, factor);
+	run_file_dataset_text(run->file, name, "units", &unit);
+	run_file_dataset_text(run->file, name, "long_name", &words);
+	meaning.unit = text_string(&unit);
+	meaning.words = text_string(&words);
+	meaning.dimensionless = request->wanted->dimensionless && run->config;
+	if (meaning.dimensionless)
+		multiply(
+			map.values, map.rows * map.columns, 1 / meaning_scale(name, meaning.unit, run->config));
+	meaning_label(&meaning, &map.label);
+	curve->map = map;
+	map = (struct figure_map){0};
+	result = 0;
+done:
+	slice_clean(&slice);
+	free(map.x);
+	free(map.y);
+	free(map.values);
+	text_clean(&unit);
+	text_clean(&words);
+	return result;
+}
+
+static const struct kind kinds[] = {
+	{"series", "time", FIGURE_LINE, false, false, add_lines},
+	{"profile", "x", FIGURE_LINE, false, true, add_lines},
+	{"column", "layer", FIGURE_LINE_POINTS, true, true, add_lines},
+	{"gauge", "profile_time", FIGURE_LINE, false, false, add_lines},
+	{"map", "x", FIGURE_LINE, false, false, add_map},
+	{"metric", NULL, FIGURE_LINE_POINTS, false, false, NULL},
+};
+
+const struct kind *kind_find(const char *name, const char **nearest)
+{
+	int best = INT_MAX;
+
+	*nearest = "";
+	for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+		int distance = text_distance(name, kinds[i].name);
+
+		if (!distance)
+			return &kinds[i];
+		if (distance < best) {
+			best = distance;
+			*nearest = kinds[i].name;
+		}
+	}
+	return NULL;
+}
+
+int kind_add_run(const struct kind_request *request, const struct kind_run *run, struct error *err)
+{
+	for (size_t i = 0; i < request->wanted->y.count; i++)
+		TRY(request->kind->add(request, run, request->wanted->y.items[i].text, request->kind, err));
+	return 0;
+}

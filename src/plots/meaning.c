@@ -1,0 +1,155 @@
+#include "plots/meaning.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+
+/* One that is not lost between the pieces of an SVG text. */
+#define SPACE "\u00a0"
+
+#define GRAVITY 9.81 /* m/s2, as the models have it */
+
+/* What is well known has a short name and, in gnuplot's marks, a symbol. */
+static const struct known {
+	const char *name, *words, *symbol;
+} known[] = {
+	{"time", "time", "{/:Italic t}"},
+	{"profile_time", "time", "{/:Italic t}"},
+	{"x", "distance along the slope", "{/:Italic x}"},
+	{"z", "height above the bed", "{/:Italic z}"},
+	{"b", "bed", "{/:Italic b}"},
+	{"h", "thickness", "{/:Italic h}"},
+	{"static_height", "flow/no-flow interface", "{/:Italic h}_s"},
+	{"u", "velocity", "{/:Italic u}"},
+	{"w", "normal velocity", "{/:Italic w}"},
+	{"p", "pressure", "{/:Italic p}"},
+	{"front_position", "front position", "{/:Italic x}_f"},
+	{"front_velocity", "front velocity", "{/:Italic v}"},
+	{"max_speed", "greatest velocity", "{/:Italic u}_{max}"},
+	{"max_thickness", "greatest thickness", "{/:Italic h}_{max}"},
+	{"mass", "mass", "{/:Italic M}"},
+	{"energy", "energy", "{/:Italic E}"},
+	{"pressure_iterations", "iterations", ""},
+	{"coarse_iterations", "iterations, coarse", ""},
+	{"layers", "layers", "{/:Italic N}"},
+	{"n_ini_guess", "layers of the first guess", ""},
+	{"slope", "slope", "{/:Italic θ}"},
+	{"erodible_bed_thickness", "thickness of the erodible bed", "{/:Italic h}_i"},
+	{"runout", "runout", "{/:Italic r}_f"},
+	{"stopping-time", "stopping time", "{/:Italic t}_f"},
+	{"final-thickness", "greatest final thickness", "{/:Italic h}_f"},
+	{"cpu-seconds", "CPU time", ""},
+};
+
+/* What takes a unit away, as P1 chooses it. */
+static const struct {
+	const char *unit, *symbol;
+} scales[] = {
+	{"m", "{/:Italic h}_0"},
+	{"s", "{/:Italic τ}_c"},
+	{"m s-1", "{/:Italic v}_0"},
+};
+enum { SCALES = sizeof scales / sizeof *scales };
+
+static const struct known *find_known(const char *name)
+{
+	for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+		if (!strcmp(known[i].name, name))
+			return &known[i];
+	return NULL;
+}
+
+const char *meaning_words(const char *name)
+{
+	const struct known *row = find_known(name);
+
+	return row ? row->words : NULL;
+}
+
+double meaning_settles(const char *name)
+{
+	/* the slope over a trailing window says nothing before the window is full */
+	return strcmp(name, "front_velocity") ? 0 : 0.02;
+}
+
+/* The row of `scales` for a unit; SCALES: none. What the computer took is no time of the flow. */
+static size_t find_scale(const char *name, const char *unit)
+{
+	size_t i = 0;
+
+	if (!strncmp(name, "cpu", 3) || !strncmp(name, "wall", 4))
+		return SCALES;
+	while (i < SCALES && strcmp(scales[i].unit, unit) != 0)
+		i++;
+	return i;
+}
+
+double meaning_scale(const char *name, const char *unit, const struct config *config)
+{
+	double height = config->initial.height, gc = GRAVITY * cos(config->slope);
+	const double values[SCALES + 1] = {height, sqrt(height / gc), sqrt(height * gc), 1};
+
+	return values[find_scale(name, unit)];
+}
+
+void meaning_unit(const char *unit, struct text *out)
+{
+	for (const char *at = unit; *at; at++) {
+		if (*at == ' ' && strchr(at, '-')) {
+			const char *minus = strchr(at, '-');
+
+			text_addf(out, "/%.*s", (int)(minus - at - 1), at + 1);
+			if (minus[1] == '2' || minus[1] == '3')
+				text_add(out, minus[1] == '2' ? "²" : "³");
+			at = minus + (minus[1] != '\0');
+		} else {
+			text_add_bytes(out, at, 1);
+		}
+	}
+}
+
+/* May it stand among gnuplot's marks? */
+static bool is_harmless(const char *string)
+{
+	for (; *string; string++)
+		if (!isalnum((unsigned char)*string) && !strchr(" /%-()", *string) &&
+			(unsigned char)*string < 0x80)
+			return false;
+	return true;
+}
+
+static void add_unit(const struct meaning *meaning, struct text *out)
+{
+	if (meaning->shown)
+		text_addf(out, SPACE "(%s)", meaning->shown);
+	else if (*meaning->unit && strcmp(meaning->unit, "1") != 0) {
+		text_add(out, SPACE "(");
+		meaning_unit(meaning->unit, out);
+		text_add(out, ")");
+	}
+}
+
+void meaning_label(const struct meaning *meaning, struct figure_text *out)
+{
+	const struct known *row = find_known(meaning->name);
+	size_t scale = meaning->dimensionless ? find_scale(meaning->name, meaning->unit) : SCALES;
+	const char *words = meaning->words && *meaning->words ? meaning->words : meaning->name;
+	struct text unit = {0};
+
+	add_unit(meaning, &unit);
+	out->marked = row && is_harmless(text_string(&unit));
+	if (!out->marked && scale < SCALES)
+		text_addf(&out->text, "%s/%s", row ? row->words : words,
+			scale == 0   ? "h0"
+			: scale == 1 ? "τc"
+						 : "v0");
+	else if (!out->marked)
+		text_addf(&out->text, "%s%s", row ? row->words : words, text_string(&unit));
+	else if (scale < SCALES)
+		text_addf(&out->text, "%s" SPACE "%s/%s", row->words, row->symbol, scales[scale].symbol);
+	else
+		text_addf(&out->text, "%s%s%s%s", row->words, *row->symbol ? SPACE : "", row->symbol,
+			text_string(&unit));
+	out->text.failed |= unit.failed;
+	text_clean(&unit);
+}

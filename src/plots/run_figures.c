@@ -1,0 +1,240 @@
+/* What is worth seeing of a run, without an experiment that asks for it. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "plots/kind.h"
+#include "plots/meaning.h"
+#include "plots/panel.h"
+#include "plots/plots_parts.h"
+#include "plots/slice.h"
+#include "run/run_file_parts.h"
+
+enum { SEVERAL = 4, FOUND_MAX = 9 };
+
+/* A figure: the panels whose datasets some run has. */
+static const struct run_figure {
+	const char *name, *title, *kind;
+	const char *y[SEVERAL]; /* a panel each, or one panel for all of them */
+	bool together;
+	const char *at; /* NULL: the last time */
+	bool split;     /* a panel for every run */
+} figures[] = {
+	{"fronts", "Front and flow in time", "series",
+		{"front_position", "front_velocity", "max_thickness", "energy"}, false, NULL, false},
+	{"profiles", "Thickness along the slope", "profile", {"h"}, false, "all", true},
+	{"deposit", "Last profile", "profile", {"h", "static_height"}, true, NULL, true},
+	{"space-time", "Thickness in space and time", "map", {"h"}, false, NULL, true},
+};
+
+/* A run that is open, and its name in the legend. */
+struct run_source {
+	struct run_file *file;
+	struct config config;
+	bool config_known;
+	char *name;
+};
+
+struct run_sources {
+	struct run_source *items; /* [count] */
+	size_t count;
+};
+
+/* The last two parts of a path say which run it is: of "results/study/layers-8" the last one. */
+static char *name_of(const char *path)
+{
+	size_t length = strlen(path), start;
+
+	while (length > 1 && path[length - 1] == '/')
+		length--;
+	if (length > 3 && !strncmp(path + length - 3, ".h5", 3)) {
+		while (length && path[length - 1] != '/')
+			length--;
+		while (length > 1 && path[length - 1] == '/')
+			length--;
+	}
+	if (!length)
+		return strdup(path);
+	for (start = length; start > 0 && path[start - 1] != '/';)
+		start--;
+	return strndup(path + start, length - start);
+}
+
+static int open_source(
+	struct run_source *source, const char *path, struct text *missing, struct error *err)
+{
+	struct text warning = {0}, config = {0};
+	struct error unknown = {0};
+
+	source->name = name_of(path);
+	if (!source->name)
+		return error_memory(err, strlen(path));
+	if (run_file_open_any(path, &source->file, &warning, err)) {
+		text_clean(&warning);
+		if (err->code == EX_NOINPUT)
+			err->code = EX_DATAERR;
+		return -1;
+	}
+	if (warning.length)
+		text_addf(missing, "%s: %s\n", path, text_string(&warning));
+	if (!run_file_text(source->file, "config", &config, &unknown))
+		source->config_known = config_parse(&source->config, text_string(&config), config.length,
+								   path, NULL, 0, &unknown) == 0;
+	text_clean(&warning);
+	text_clean(&config);
+	return 0;
+}
+
+static bool any_has(const struct run_sources *sources, const char *name)
+{
+	for (size_t i = 0; i < sources->count; i++)
+		if (run_file_has(sources->items[i].file, name))
+			return true;
+	return false;
+}
+
+/* One panel, or one for each run, of all runs. */
+static int add_panel(const struct run_sources *sources, const struct experiment_panel *wanted,
+	struct figure *figure, struct error *err)
+{
+	const char *nearest;
+	struct kind_cuts cuts;
+	struct curves curves = {0};
+	struct kind_request request = {kind_find(wanted->kind.text, &nearest), wanted, &cuts, "",
+		"plot", &curves, &figure->missing};
+	int result = kind_cuts_read(&cuts, wanted, "", err);
+
+	curves.mark = request.kind->mark;
+	(void)curves_add_dimension(&curves, "run", wanted->split.count && sources->count > 1, false);
+	(void)kind_add_dimensions(&request);
+	for (size_t i = 0; !result && i < sources->count; i++) {
+		const struct run_source *source = &sources->items[i];
+		const char *part = source->name;
+		const struct kind_run run = {
+			source->file, source->config_known ? &source->config : NULL, source->name, &part, 1};
+		bool has = false;
+
+		for (size_t k = 0; k < wanted->y.count; k++)
+			has |= run_file_has(source->file, wanted->y.items[k].text);
+		if (has)
+			result = kind_add_run(&request, &run, err);
+	}
+	if (!result)
+		result = panel_finish(&curves, wanted, "", figure, err);
+	curves_clean(&curves);
+	kind_cuts_clean(&cuts);
+	return result;
+}
+
+/* The panels of a figure with these datasets, each alone or all in one. */
+static int add_panels(const struct run_sources *sources, const char *kind, const char *const *names,
+	size_t count, const struct run_figure *like, struct figure *figure, struct error *err)
+{
+	struct term all[SEVERAL], at = {like->at, 0, 0}, run = {"run", 0, 0};
+	struct experiment_panel panel = {.kind = {kind, 0, 0},
+		.title = "",
+		.labels = {"", ""},
+		.at = {&at, like->at != NULL},
+		.split = {&run, like->split}};
+	size_t kept = 0;
+
+	for (size_t i = 0; i < count; i++) {
+		struct term y = {names[i], 0, 0};
+
+		if (!any_has(sources, names[i]))
+			continue;
+		if (like->together) {
+			all[kept++] = y;
+			continue;
+		}
+		panel.y = (struct term_list){&y, 1};
+		TRY(add_panel(sources, &panel, figure, err));
+	}
+	panel.y = (struct term_list){all, kept};
+	return kept ? add_panel(sources, &panel, figure, err) : 0;
+}
+
+/* Datasets of a model that the table of figures does not know: series, or columns across layers. */
+static size_t find_datasets(
+	const struct run_sources *sources, bool columns, struct text *list, const char **names)
+{
+	struct run_file *file = sources->items[0].file;
+	struct error err = {0};
+	size_t count = 0;
+	char *rest = NULL;
+
+	if (run_file_names(file, list, &err) || !list->data)
+		return 0;
+	for (char *name = strtok_r(list->data, "\n", &rest); name; name = strtok_r(NULL, "\n", &rest)) {
+		bool fits = columns
+						? slice_layer_axis(file, name + 1) &&
+							  slice_has_axis(file, name + 1, "profile_time") &&
+							  run_file_scale_length(file, "x", 0) <= 1
+						: slice_has_axis(file, name + 1, "time") && strncmp(name, "/cpu", 4) != 0 &&
+							  strcmp(name, "/time") != 0 && strcmp(name, "/dt") != 0;
+
+		if (fits && !strchr(name + 1, '/') && count < FOUND_MAX)
+			names[count++] = name + 1;
+	}
+	return count;
+}
+
+static int draw_found(
+	const struct run_sources *sources, bool columns, struct plots_output *output, struct error *err)
+{
+	static const struct run_figure like[] = {
+		{"series", "Series in time", "series", {0}, false, NULL, false},
+		{"columns", "Profiles over height", "column", {0}, false, "all", true}};
+	const char *names[FOUND_MAX];
+	struct text list = {0};
+	struct figure figure = {.name = like[columns].name};
+	size_t count = find_datasets(sources, columns, &list, names);
+	int result;
+
+	text_add(&figure.title, like[columns].title);
+	result = add_panels(sources, like[columns].kind, names, count, &like[columns], &figure, err);
+	if (!result)
+		result = plots_write(&figure, output, err);
+	figure_clean(&figure);
+	text_clean(&list);
+	return result;
+}
+
+static int draw_figure(const struct run_sources *sources, const struct run_figure *wanted,
+	struct plots_output *output, struct error *err)
+{
+	struct figure figure = {.name = wanted->name};
+	size_t count = 0;
+	int result;
+
+	while (count < SEVERAL && wanted->y[count])
+		count++;
+	text_addf(&figure.title, "%s%s%s", wanted->title, sources->count == 1 ? ": " : "",
+		sources->count == 1 ? sources->items[0].name : "");
+	result = add_panels(sources, wanted->kind, wanted->y, count, wanted, &figure, err);
+	if (!result)
+		result = plots_write(&figure, output, err);
+	figure_clean(&figure);
+	return result;
+}
+
+int plots_draw_runs(
+	const char *const *paths, size_t count, struct plots_output *output, struct error *err)
+{
+	struct run_sources sources = {calloc(count, sizeof *sources.items), count};
+	int result = sources.items ? 0 : error_memory(err, count * sizeof *sources.items);
+
+	for (size_t i = 0; !result && i < count; i++)
+		result = open_source(&sources.items[i], paths[i], &output->missing, err);
+	for (size_t i = 0; !result && i < sizeof figures / sizeof *figures; i++)
+		result = draw_figure(&sources, &figures[i], output, err);
+	if (!result && !any_has(&sources, "front_position"))
+		result = draw_found(&sources, false, output, err);
+	if (!result && !any_has(&sources, "front_position"))
+		result = draw_found(&sources, true, output, err);
+	for (size_t i = 0; sources.items && i < count; i++) {
+		run_file_close(sources.items[i].file);
+		free(sources.items[i].name);
+	}
+	free(sources.items);
+	return result;
+}

@@ -1,0 +1,521 @@
+#include "plots/script.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Sizes in points: the same in every format. */
+#define FONT "Arial" /* or what fontconfig has instead: Liberation Sans, DejaVu Sans */
+enum {
+	FONT_SIZE = 11,
+	LEFT = 66, /* of a panel: room for its labels */
+	RIGHT = 18,
+	TOP = 12,
+	TITLE = 20, /* and for its title, */
+	BOTTOM = 44,
+	COLOUR_BOX = 64, /* and for the colours of a map */
+	HEAD = 26,       /* above all panels: the title of the figure */
+	EDGE = 8,
+	ENTRY = 17, /* of the legend: its height, the width of its sample, and of a letter */
+	SAMPLE = 44,
+};
+#define LETTER 5.7
+
+enum { POINTS_MAX = 1200, MAP_ROWS = 160, MAP_COLUMNS = 400, TEXT_MAX = 300 };
+
+struct geometry {
+	int columns, rows;
+	int width, height; /* of the area within a panel's axes */
+	int title;         /* TITLE if some panel has one */
+	int box;           /* COLOUR_BOX if some panel is a map */
+	int entry_columns, entry_rows;
+	bool legends;    /* one for each panel instead of one for all */
+	double total[2]; /* of the figure */
+};
+
+/* Within single quotes nothing means anything to gnuplot but the quote itself, so an apostrophe is
+ * written as the typographer's. Whatever is no printable UTF-8 is left out, and so is what is too long
+ * to be read. */
+static void add_quoted(struct text *out, const char *string)
+{
+	text_add(out, "'");
+	for (size_t shown = 0; *string && shown < TEXT_MAX; shown++) {
+		size_t size = text_character_size(string);
+
+		if (!size)
+			text_add(out, "\ufffd");
+		else if (*string == '\'')
+			text_add(out, "\u2019");
+		else if ((unsigned char)*string < 0x20 || *string == 0x7f)
+			text_add(out, " ");
+		else
+			text_add_bytes(out, string, size);
+		if (string[0] == ']' &&
+			string[1] == '>') /* "]]>" is no text of XML, and gnuplot lets it be */
+			text_add(out, " ");
+		string += size ? size : 1;
+	}
+	text_add(out, "'");
+}
+
+static void add_text(struct text *out, const char *command, const struct figure_text *text)
+{
+	text_addf(out, "%s ", command);
+	add_quoted(out, text_string(&text->text));
+	text_add(out, text->marked ? " enhanced" : " noenhanced");
+}
+
+static void add_number(struct text *out, double value)
+{
+	char buffer[TEXT_REAL_SIZE];
+
+	text_addf(out, " %s", isfinite(value) ? text_real(value, buffer) : "NaN");
+}
+
+static bool can_be_drawn(const struct figure_panel *panel, const struct figure_line *line)
+{
+	for (size_t i = 0; i < line->count; i++)
+		if (isfinite(line->x[i]) && isfinite(line->y[i]) && (!panel->x.log || line->x[i] > 0) &&
+			(!panel->y.log || line->y[i] > 0))
+			return true;
+	return false;
+}
+
+static void add_point(struct text *out, const struct figure_line *line, size_t i)
+{
+	add_number(out, line->x[i]);
+	add_number(out, line->y[i]);
+	add_number(out, line->spread ? line->spread[i] : 0);
+	text_add(out, "\n");
+}
+
+/* First, least, greatest and last of the points `from` to `end`, in their order: so that thousands of
+ * steps become a small file that looks the same. */
+static void add_bucket(struct text *out, const struct figure_line *line, size_t from, size_t end)
+{
+	size_t least = from, greatest = from;
+
+	for (size_t i = from; i < end; i++) {
+		if (!(line->y[i] >= line->y[least]))
+			least = i;
+		if (!(line->y[i] <= line->y[greatest]))
+			greatest = i;
+	}
+	for (size_t i = from; i < end; i++)
+		if (i == from || i == least || i == greatest || i == end - 1)
+			add_point(out, line, i);
+}
+
+static void add_line_data(
+	struct text *out, const struct figure_line *line, size_t panel, size_t index)
+{
+	size_t buckets = POINTS_MAX / 4;
+
+	text_addf(out, "$p%zu_%zu << END\n", panel, index);
+	if (line->count <= POINTS_MAX)
+		for (size_t i = 0; i < line->count; i++)
+			add_point(out, line, i);
+	else
+		for (size_t k = 0; k < buckets; k++)
+			add_bucket(out, line, k * line->count / buckets, (k + 1) * line->count / buckets);
+	text_add(out, "END\n");
+}
+
+/* The value of a map at a height between its rows. */
+static double map_value(const struct figure_map *map, double y, size_t column)
+{
+	size_t row = 0;
+	double share;
+
+	while (row + 2 < map->rows && map->y[row + 1] < y)
+		row++;
+	if (map->rows < 2)
+		return map->values[column];
+	share = fmin(1, fmax(0, (y - map->y[row]) / (map->y[row + 1] - map->y[row])));
+	return (1 - share) * map->values[row * map->columns + column] +
+		   share * map->values[(row + 1) * map->columns + column];
+}
+
+/* An image wants even steps: the rows of a map are interpolated in time. */
+static void add_map_data(struct text *out, const struct figure_map *map, size_t panel)
+{
+	size_t step = map->columns / MAP_COLUMNS + 1;
+	double from = map->y[0], to = map->y[map->rows - 1];
+
+	text_addf(out, "$m%zu << END\n", panel);
+	for (int row = 0; row < MAP_ROWS; row++) {
+		double y = from + (to - from) * row / (MAP_ROWS - 1);
+
+		for (size_t column = 0; column < map->columns; column += step) {
+			add_number(out, map->x[column]);
+			add_number(out, y);
+			add_number(out, map_value(map, y, column));
+			text_add(out, "\n");
+		}
+	}
+	text_add(out, "END\n");
+}
+
+static void add_data(struct text *out, const struct figure *figure)
+{
+	for (size_t p = 0; p < figure->panel_count; p++) {
+		const struct figure_panel *panel = &figure->panels[p];
+
+		for (size_t i = 0; i < panel->line_count; i++)
+			if (can_be_drawn(panel, &panel->lines[i]))
+				add_line_data(out, &panel->lines[i], p, i);
+		if (panel->map.rows > 1)
+			add_map_data(out, &panel->map, p);
+	}
+}
+
+/* How a line looks, in `plot` and in the legend alike. */
+static void add_style(struct text *out, const struct figure_line *line)
+{
+	static const char *const dashes[] = {"solid", "(9,4)", "(2,3)", "(9,3,2,3)", "(16,4)", "(5,2)"};
+	static const int full[] = {7, 5, 9, 13, 11, 15}, hollow[] = {6, 4, 8, 12, 10, 14};
+	enum { DASHES = sizeof dashes / sizeof *dashes };
+	int shape = line->dash % DASHES;
+
+	if (line->mark != FIGURE_POINTS)
+		text_addf(out, " dt %s lw %s", dashes[shape], shape ? "1.7" : "1.5");
+	if (line->mark != FIGURE_LINE)
+		text_addf(out, " pt %d ps %s", line->hollow ? hollow[shape] : full[shape],
+			line->hollow ? "0.8" : "0.55");
+	if (line->mark == FIGURE_POINTS)
+		text_add(out, " lw 1.2");
+	text_addf(out, " lc rgb '#%06X'", line->colour);
+}
+
+static const char *mark_name(const struct figure_line *line)
+{
+	static const char *const names[] = {"lines", "points", "linespoints"};
+
+	return names[line->mark];
+}
+
+static bool has_spread(const struct figure_line *line)
+{
+	for (size_t i = 0; line->spread && i < line->count; i++)
+		if (line->spread[i] > 0)
+			return true;
+	return false;
+}
+
+/* Lines in the legend: those with a title, each look and title once. */
+static bool same_entry(const struct figure_line *a, const struct figure_line *b)
+{
+	return !strcmp(a->title, b->title) && a->colour == b->colour && a->dash == b->dash &&
+		   a->mark == b->mark && a->hollow == b->hollow;
+}
+
+static bool same_look(const struct figure_line *a, const struct figure_line *b)
+{
+	return a->colour == b->colour && a->dash == b->dash && a->mark == b->mark &&
+		   a->hollow == b->hollow;
+}
+
+/* The entries of the legend of one panel, or of all of them. */
+struct entries {
+	const struct figure_line *items[128]; /* [count] */
+	size_t count;
+	size_t longest; /* letters of the longest title */
+};
+
+static size_t letters(const char *string)
+{
+	size_t count = 0;
+
+	for (; *string; string++)
+		count += ((unsigned char)*string & 0xC0) != 0x80;
+	return count;
+}
+
+static void add_entry(struct entries *entries, const struct figure_line *line)
+{
+	for (size_t i = 0; i < entries->count; i++)
+		if (same_entry(entries->items[i], line))
+			return;
+	if (entries->count == sizeof entries->items / sizeof *entries->items)
+		return;
+	entries->items[entries->count++] = line;
+	if (letters(line->title) > entries->longest)
+		entries->longest = letters(line->title);
+}
+
+static void collect(const struct figure_panel *panel, struct entries *entries)
+{
+	for (size_t i = 0; i < panel->line_count; i++)
+		if (panel->lines[i].title && can_be_drawn(panel, &panel->lines[i]))
+			add_entry(entries, &panel->lines[i]);
+}
+
+/* One look that means two things in two panels: then every panel has a legend of its own. */
+static bool is_ambiguous(const struct entries *entries)
+{
+	for (size_t i = 0; i < entries->count; i++)
+		for (size_t k = 0; k < i; k++)
+			if (same_look(entries->items[i], entries->items[k]))
+				return true;
+	return false;
+}
+
+static void fit_legend(struct geometry *g, const struct entries *entries, double width)
+{
+	double entry = SAMPLE + LETTER * (double)entries->longest;
+	int columns = entry < width ? (int)(width / entry) : 1, rows;
+
+	if (columns > (int)entries->count)
+		columns = (int)entries->count;
+	if (columns < 1)
+		columns = 1;
+	rows = ((int)entries->count + columns - 1) / columns;
+	if (rows > g->entry_rows) {
+		g->entry_rows = rows;
+		g->entry_columns = columns;
+	}
+}
+
+static int columns_of(const struct figure *figure)
+{
+	int count = (int)figure->panel_count;
+
+	if (figure->columns)
+		return figure->columns < count ? figure->columns : count;
+	return count <= 3 ? count : count == 4 ? 2 : 3;
+}
+
+static struct geometry lay_out(const struct figure *figure)
+{
+	struct geometry g = {.columns = columns_of(figure)};
+	struct entries all = {.count = 0};
+	int pitch;
+
+	g.rows = ((int)figure->panel_count + g.columns - 1) / g.columns;
+	g.width = g.columns == 1 ? 400 : g.columns == 2 ? 300 : 240;
+	g.height = g.columns == 1 && g.rows == 1 ? 250 : g.columns <= 2 ? 190 : 160;
+	for (size_t p = 0; p < figure->panel_count; p++) {
+		if (figure->panels[p].title.length)
+			g.title = TITLE;
+		if (figure->panels[p].map.rows)
+			g.box = COLOUR_BOX;
+		collect(&figure->panels[p], &all);
+	}
+	pitch = LEFT + g.width + g.box + RIGHT;
+	g.total[0] = EDGE + g.columns * pitch + EDGE;
+	g.legends = is_ambiguous(&all);
+	for (size_t p = 0; g.legends && p < figure->panel_count; p++) {
+		struct entries own = {.count = 0};
+
+		collect(&figure->panels[p], &own);
+		fit_legend(&g, &own, pitch - 10);
+	}
+	if (!g.legends)
+		fit_legend(&g, &all, g.total[0] - LEFT);
+	/* a single line needs no name */
+	if (!g.legends && all.count < 2)
+		g.entry_rows = 0;
+	g.total[1] = EDGE + (figure->title.length ? HEAD : 0) +
+				 g.rows * (TOP + g.title + g.height + BOTTOM) + EDGE +
+				 ENTRY * g.entry_rows * (g.legends ? g.rows : 1);
+	return g;
+}
+
+/* The area within the axes, in points from the left and from the bottom. */
+static void add_margins(struct text *out, const struct geometry *g, double left, double right,
+	double bottom, double top)
+{
+	text_addf(out,
+		"set lmargin at screen %.6f; set rmargin at screen %.6f\n"
+		"set bmargin at screen %.6f; set tmargin at screen %.6f\n",
+		left / g->total[0], right / g->total[0], bottom / g->total[1], top / g->total[1]);
+}
+
+/* A legend in an empty panel of its own between these heights. */
+static void add_legend(struct text *out, const struct geometry *g, const struct entries *entries,
+	const double sides[4], int columns)
+{
+	if (!entries->count)
+		return;
+	add_margins(out, g, sides[0], sides[1], sides[2], sides[3]);
+	text_addf(out,
+		"set key inside center center horizontal Left reverse noenhanced samplen 2.6 spacing 1.1 "
+		"width 1 maxcols %d nobox\n"
+		"unset border; unset xtics; unset ytics; unset grid; unset title; unset xlabel; unset "
+		"ylabel; unset label\n"
+		"unset logscale; set xrange [0:1]; set yrange [0:1]\n"
+		"plot 2 notitle", /* out of sight: entries alone are no plot */
+		columns);
+	for (size_t i = 0; i < entries->count; i++) {
+		text_addf(out, ", keyentry with %s", mark_name(entries->items[i]));
+		add_style(out, entries->items[i]);
+		text_add(out, " title ");
+		add_quoted(out, entries->items[i]->title);
+	}
+	text_add(out, "\n");
+}
+
+/* `tight`: the axis ends where the data do. */
+static void add_range(
+	struct text *out, const char *axis, const struct figure_axis *range, bool tight)
+{
+	text_addf(out, "set %srange [", axis);
+	if (!isnan(range->from))
+		add_number(out, range->from);
+	text_add(out, isnan(range->from) ? "*:" : ":");
+	if (!isnan(range->to))
+		add_number(out, range->to);
+	text_addf(out, "%s]%s\n", isnan(range->to) ? "*" : "", tight ? " noextend" : "");
+	text_addf(out,
+		range->log ? "set logscale %s; set format %s '10^{%%T}'; set m%stics 10\n"
+				   : "unset logscale %s; set format %s '%%h'; unset m%stics\n",
+		axis, axis, axis);
+}
+
+static bool all_lines(const struct figure_panel *panel)
+{
+	for (size_t i = 0; i < panel->line_count; i++)
+		if (panel->lines[i].mark == FIGURE_LINE_POINTS)
+			return false;
+	return true;
+}
+
+static void add_axes(struct text *out, const struct figure_panel *panel)
+{
+	text_add(out,
+		"set border 3 lw 0.8 lc rgb '#333333'\n"
+		"set xtics nomirror out scale 0.6 textcolor rgb '#222222'\n"
+		"set ytics nomirror out scale 0.6 textcolor rgb '#222222'\n"
+		"set grid xtics ytics lt 1 dt solid lw 0.6 lc rgb '#E4E4E4'\nunset key; unset label\n");
+	if (panel->title.length) {
+		text_add(out, "set title ");
+		add_quoted(out, text_string(&panel->title));
+		text_add(out, " noenhanced offset 0,-0.7\n");
+	} else {
+		text_add(out, "unset title\n");
+	}
+	add_text(out, "set xlabel", &panel->x.label);
+	text_add(out, " offset 0,0.3\n");
+	add_text(out, "set ylabel", &panel->y.label);
+	text_add(out, " offset -0.2,0\n");
+	add_range(out, "x", &panel->x, all_lines(panel));
+	add_range(out, "y", &panel->y, false);
+}
+
+static void add_lines(struct text *out, const struct figure_panel *panel, size_t p, bool *any)
+{
+	for (size_t i = 0; i < panel->line_count; i++) {
+		const struct figure_line *line = &panel->lines[i];
+
+		if (!can_be_drawn(panel, line))
+			continue;
+		text_addf(
+			out, "%s $p%zu_%zu using 1:2 with %s", *any ? "," : "plot", p, i, mark_name(line));
+		add_style(out, line);
+		text_add(out, " notitle");
+		*any = true;
+		if (has_spread(line))
+			text_addf(out,
+				", $p%zu_%zu using 1:2:3 with yerrorbars pt 0 lw 0.8 lc rgb '#%06X' notitle", p, i,
+				line->colour);
+	}
+}
+
+static void add_map(struct text *out, const struct figure_panel *panel, size_t p, bool *any)
+{
+	if (panel->map.rows < 2)
+		return;
+	text_add(out, "set palette defined (0 '#440154', 1 '#472D7B', 2 '#3B528B', 3 '#2C728E', "
+				  "4 '#21918C', 5 '#28AE80', 6 '#5EC962', 7 '#ADDC30', 8 '#FDE725')\n"
+				  "set colorbox noborder; set cbtics scale 0; set autoscale xfix; "
+				  "set autoscale yfix\n");
+	add_text(out, "set cblabel", &panel->map.label);
+	text_addf(out, " offset 0.5,0\nplot $m%zu using 1:2:3 with image notitle", p);
+	*any = true;
+}
+
+static void add_panel(
+	struct text *out, const struct figure *figure, const struct geometry *g, size_t p)
+{
+	const struct figure_panel *panel = &figure->panels[p];
+	int row = (int)p / g->columns, column = (int)p % g->columns;
+	int legend = g->legends ? ENTRY * g->entry_rows : 0;
+	double left = EDGE + column * (LEFT + g->width + g->box + RIGHT) + LEFT;
+	double top = g->total[1] - EDGE - (figure->title.length ? HEAD : 0) -
+				 row * (TOP + g->title + g->height + BOTTOM + legend) - TOP - g->title;
+	bool any = false;
+
+	add_margins(out, g, left, left + g->width, top - g->height, top);
+	add_axes(out, panel);
+	add_map(out, panel, p, &any);
+	add_lines(out, panel, p, &any);
+	if (!any) /* an empty panel says so, and the figure stays whole */
+		text_add(out,
+			"unset logscale; set xrange [0:1]; set yrange [0:1]\n"
+			"set label 1 'nothing to show' at graph 0.5,0.5 center textcolor rgb '#888888'\n"
+			"plot NaN notitle");
+	text_add(out, "\n");
+	if (legend) {
+		struct entries own = {.count = 0};
+		double bottom = top - g->height - BOTTOM;
+
+		collect(panel, &own);
+		add_legend(out, g, &own,
+			(double[4]){left - LEFT, left + g->width + RIGHT, bottom - legend, bottom},
+			g->entry_columns);
+	}
+}
+
+static void add_body(struct text *out, const struct figure *figure, const struct geometry *g)
+{
+	struct entries all = {.count = 0};
+
+	text_add(out, "reset\nset encoding utf8\nset multiplot");
+	if (figure->title.length) {
+		text_add(out, " title ");
+		add_quoted(out, text_string(&figure->title));
+		text_addf(out, " noenhanced font '" FONT " Bold,%d'", FONT_SIZE + 1);
+	}
+	text_add(out, "\n");
+	for (size_t p = 0; p < figure->panel_count; p++)
+		add_panel(out, figure, g, p);
+	for (size_t p = 0; p < figure->panel_count; p++)
+		collect(&figure->panels[p], &all);
+	if (!g->legends && g->entry_rows)
+		add_legend(out, g, &all,
+			(double[4]){EDGE, g->total[0] - EDGE, EDGE, EDGE + ENTRY * g->entry_rows},
+			g->entry_columns);
+	text_add(out, "unset multiplot\nunset output\n");
+}
+
+static void add_terminal(
+	struct text *out, const struct geometry *g, const struct script_output *output)
+{
+	if (!strcmp(output->format, "svg"))
+		text_addf(out,
+			"set terminal svg enhanced size %.0f,%.0f font '" FONT ",%d' background "
+			"'#FFFFFF'\n",
+			g->total[0], g->total[1], FONT_SIZE);
+	else if (!strcmp(output->format, "png"))
+		text_addf(out,
+			"set terminal pngcairo enhanced size %.0f,%.0f font '" FONT ",%d' fontscale 1.5 "
+			"linewidth 2 pointscale 2 background '#FFFFFF'\n",
+			2 * g->total[0], 2 * g->total[1], FONT_SIZE);
+	else
+		text_addf(out,
+			"set terminal pdfcairo enhanced size %.4fin,%.4fin font '" FONT ",%d' "
+			"fontscale 0.78 linewidth 1.4 pointscale 0.9 background '#FFFFFF'\n",
+			g->total[0] / 72, g->total[1] / 72, FONT_SIZE);
+	text_addf(out, "set output '%s'\n", output->file);
+}
+
+void script_write(const struct figure *figure, const struct script_output *outputs, size_t count,
+	struct text *out)
+{
+	struct geometry g = lay_out(figure);
+
+	add_data(out, figure);
+	for (size_t i = 0; i < count; i++) {
+		add_terminal(out, &g, &outputs[i]);
+		add_body(out, figure, &g);
+	}
+}

@@ -1,0 +1,122 @@
+#include "tables/measured.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "talus/run.h"
+
+static void tell(struct text *missing, const char *what, const struct experiment_run *run,
+	const char *why, const char *reason)
+{
+	if (missing)
+		text_addf(missing, "%s: run %s: %s%s%s\n", what, run->id, why, *reason ? ": " : "", reason);
+}
+
+struct run_file *measured_open(
+	const struct experiment_run *run, const char *what, struct text *missing, struct text *warnings)
+{
+	struct run_report report;
+	struct run_file *file = NULL;
+	struct text warning = {0};
+	struct error err = {0};
+
+	run_report_read(run->folder, &report);
+	if (report.state != RUN_STATE_COMPLETE) {
+		tell(missing, what, run, run_state_name(report.state), report.reason);
+		return NULL;
+	}
+	if (run_file_open_newest(run->folder, &file, &warning, &err)) {
+		char message[sizeof err.text + sizeof err.file + 32];
+
+		tell(missing, what, run, "damaged", error_format(&err, message, sizeof message));
+	}
+	if (file && warning.length && warnings)
+		text_addf(warnings, "%s: %s\n", run->id, text_string(&warning));
+	text_clean(&warning);
+	return file;
+}
+
+static struct run_file *open_partner(struct measured *measured, size_t index)
+{
+	if (measured->partner && measured->partner_index == index)
+		return measured->partner;
+	run_file_close(measured->partner);
+	measured->partner =
+		measured_open(&measured->layout->experiment->runs[index], "", NULL, &measured->warnings);
+	measured->partner_index = index;
+	return measured->partner;
+}
+
+static void tell_missing(struct measured *measured, const struct experiment_run *run,
+	const char *why, const char *reason)
+{
+	tell(&measured->missing, measured->layout->what, run, why, reason);
+}
+
+static void measure(struct measured *measured, size_t index, struct run_file *file,
+	const struct measure *measure, double *value)
+{
+	const struct experiment *experiment = measured->layout->experiment;
+	const struct experiment_run *run = &experiment->runs[index];
+	const struct metric *metric = measure->metric;
+	struct sample sample = {file, &run->config, NULL, measure->at};
+	struct error err = {0};
+
+	if (isnan(sample.at))
+		sample.at = run->config.time.end;
+	if (metric->partner != PARTNER_NONE) {
+		size_t partner = measured->layout->places[index].partner[metric->partner];
+
+		sample.partner = partner == index ? file : open_partner(measured, partner);
+		if (!sample.partner) {
+			tell_missing(
+				measured, run, "lacks the run it is compared with", experiment->runs[partner].id);
+			return;
+		}
+	}
+	if (metric->value(&sample, value, &err)) {
+		*value = NAN;
+		tell_missing(measured, run, metric->name, err.text);
+	} else if (!isfinite(*value)) {
+		*value = NAN;
+		tell_missing(measured, run, metric->name, "is not a number");
+	}
+}
+
+int measured_make(struct measured *measured, const struct layout *layout, struct error *err)
+{
+	size_t runs = layout->experiment->run_count, measures = layout->measure_count;
+
+	*measured = (struct measured){.layout = layout};
+	measured->values = calloc(runs * measures + 1, sizeof *measured->values);
+	if (!measured->values)
+		return error_memory(err, runs * measures * sizeof *measured->values);
+	for (size_t i = 0; i < runs * measures; i++)
+		measured->values[i] = NAN;
+	for (size_t i = 0; i < runs; i++) {
+		const struct experiment_run *run = &layout->experiment->runs[i];
+		struct run_file *file;
+
+		if (layout->places[i].row == LAYOUT_NOWHERE)
+			continue;
+		file = measured_open(run, layout->what, &measured->missing, &measured->warnings);
+		if (!file)
+			continue;
+		for (size_t m = 0; m < measures; m++)
+			measure(measured, i, file, &layout->measures[m], &measured->values[i * measures + m]);
+		provenance_add(&measured->provenance, file);
+		run_file_close(file);
+	}
+	run_file_close(measured->partner);
+	measured->partner = NULL;
+	return 0;
+}
+
+void measured_clean(struct measured *measured)
+{
+	free(measured->values);
+	provenance_clean(&measured->provenance);
+	text_clean(&measured->warnings);
+	text_clean(&measured->missing);
+	*measured = (struct measured){0};
+}

@@ -1,0 +1,30 @@
+/* What the metrics of a layout say of every run. */
+#ifndef TALUS_MEASURED_H
+#define TALUS_MEASURED_H
+
+#include "tables/layout.h"
+#include "tables/provenance.h"
+
+struct measured {
+	const struct layout *layout;
+	double *values; /* [runs][measures], NaN: missing */
+	struct provenance provenance;
+	struct text warnings; /* lines about the files that were read */
+	struct text missing;  /* a line per missing run: its name and why */
+	/* the partner opened last: neighbouring runs share it as a rule */
+	struct run_file *partner;
+	size_t partner_index;
+};
+
+/* Measure every run that has a place in the layout, which must outlive `measured`. A run that is not
+ * complete is no error: see `missing`. EX_SOFTWARE. Clean in every case. */
+int measured_make(struct measured *measured, const struct layout *layout, struct error *err);
+
+void measured_clean(struct measured *measured);
+
+/* Open a run's file if the run is complete; NULL if not: then `missing` says why, after `what` and the
+ * run's name. `warnings` gets what is not as it should be. Either may be NULL. */
+struct run_file *measured_open(const struct experiment_run *run, const char *what,
+	struct text *missing, struct text *warnings);
+
+#endif

@@ -1,0 +1,1 @@
+talus plot --help
