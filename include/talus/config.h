@@ -104,6 +104,7 @@ struct config {
 		double series_every;          /* s; 0: every step */
 		double front_threshold;       /* h - h_i at the front, m */
 		double static_speed;          /* a layer slower than this is at rest, m/s */
+		double steady_surface; /* int phi where the exact steady flow with walls begins, m */
 	} output;
 	struct {
 		double every;    /* wall clock, s; 0: off */
@@ -142,5 +143,8 @@ void config_differences(const struct config *a, const struct config *b, struct t
 /* The value of a dotted key as config_print writes it, without the key. EX_DATAERR with the nearest
  * known key for an unknown one, for a group, or for a key that the model does not have. */
 int config_value(const struct config *config, const char *key, struct text *out, struct error *err);
+
+/* Whether some config has a value of that key. EX_DATAERR as config_value for one that none has. */
+int config_check_key(const char *key, struct error *err);
 
 #endif

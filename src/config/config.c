@@ -283,14 +283,29 @@ void config_differences(const struct config *a, const struct config *b, struct t
 	field_differences(&config_table, a, b, out);
 }
 
-int config_value(const struct config *config, const char *key, struct text *out, struct error *err)
+/* The row of a key with a value, NULL with the error set. */
+static const struct field *find_key(const char *key, struct error *err)
 {
 	const struct field *field = field_find(&config_table, key);
 
 	if (!field)
-		return field_unknown(&config_table, key, err);
-	if (field->kind == FIELD_GROUP)
-		return error_set(err, EX_DATAERR, "'%s' is a group of keys, not a key with a value", key);
+		(void)field_unknown(&config_table, key, err);
+	else if (field->kind == FIELD_GROUP)
+		(void)error_set(err, EX_DATAERR, "'%s' is a group of keys, not a key with a value", key);
+	return field && field->kind != FIELD_GROUP ? field : NULL;
+}
+
+int config_check_key(const char *key, struct error *err)
+{
+	return find_key(key, err) ? 0 : -1;
+}
+
+int config_value(const struct config *config, const char *key, struct text *out, struct error *err)
+{
+	const struct field *field = find_key(key, err);
+
+	if (!field)
+		return -1;
 	if (!field_applies(&config_table, field, config))
 		return field_inapplicable(&config_table, field, config, err);
 	field_print_value(field, config, out);

@@ -177,6 +177,8 @@ static const struct field fields[] = {
 		"thickness above the bed layer where the front is"),
 	REAL(output.static_speed, DRY, "m/s", "0.01 m/s", "(0, inf)",
 		"a layer slower than this counts as at rest"),
+	REAL(output.steady_surface, IMMERSED, "m", "1e-9 m", "[1e-12, inf)",
+		"grains above the depth at which the exact steady flow with walls begins; 1e-6 m in P4"),
 
 	GROUP(checkpoint, FIELD_PASSIVE, "how much work a lost machine can cost"),
 	REAL(checkpoint.every, FIELD_PASSIVE, "s", "30 s", "[0, inf)",

@@ -2,15 +2,14 @@
  * z below the surface, with F the integral of phi from there, p = weight F and phi = phi_c - K_2 I:
  *   mu(I) F + (2 mu_w/W) int_0^z F = tan(theta) F.
  * Without side walls I is constant, and the rest is in closed form. With them I falls with depth, and
- * where it would become negative the grains do not move: an initial value problem, which GSL solves. */
+ * where it would become negative the grains do not move: an initial value problem, which GSL solves. At
+ * the surface it is singular, so that F begins with a small value instead of 0. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <math.h>
 
 #include "immersed/immersed.h"
 
-/* F at the surface, where the equation is singular, m: as the paper has it. */
-#define SURFACE 1e-6
 #define TOLERANCE 1e-10
 
 /* F, I, the difference of velocity from the surface, and the integral of that. */
@@ -77,7 +76,7 @@ static void with_walls(const struct model_state *s, double h, double *v, double 
 	gsl_odeiv2_system system = {derivatives, NULL, EQUATIONS, &par};
 	gsl_odeiv2_driver *driver = gsl_odeiv2_driver_alloc_standard_new(
 		&system, gsl_odeiv2_step_rk8pd, 1e-3 * h, 0, TOLERANCE, 1, 0);
-	double y[EQUATIONS] = {SURFACE, inertia_of(&par, par.tan_slope)}, z = 0;
+	double y[EQUATIONS] = {s->steady_surface, inertia_of(&par, par.tan_slope)}, z = 0;
 	bool good = driver != NULL;
 
 	for (int a = s->layers; good && a-- > 0;) {

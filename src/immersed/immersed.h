@@ -71,6 +71,7 @@ struct model_state {
 	double depth; /* h at t = 0, m */
 	const struct immersed_scheme *scheme;
 	double tolerance, fixed_step;
+	double steady_surface; /* F at the surface of the exact flow with walls, m */
 
 	/* The exact state. */
 	struct immersed_column now;

@@ -131,6 +131,7 @@ static int create(const struct config *config, struct model_state **out, struct 
 	s->scheme = schemes[config->time.scheme];
 	s->tolerance = config->time.tolerance;
 	s->fixed_step = config->time.step;
+	s->steady_surface = config->output.steady_surface;
 	count = layout(s, NULL);
 	s->memory = calloc(count, sizeof *s->memory);
 	if (!s->memory) {

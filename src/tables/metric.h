@@ -10,13 +10,21 @@
 #include "talus/run_file.h"
 #include "talus/text.h"
 
-enum metric_partner { PARTNER_NONE, PARTNER_BASELINE, PARTNER_REFERENCE };
+/* PARTNER_PREVIOUS: the run of the row before, in the same column; the first row has none. */
+enum metric_partner {
+	PARTNER_NONE,
+	PARTNER_BASELINE,
+	PARTNER_REFERENCE,
+	PARTNER_PREVIOUS,
+	PARTNERS,
+};
 
 struct sample {
 	struct run_file *file;
 	const struct config *config;
 	struct run_file *partner; /* of the kind the metric asks for, else NULL */
 	double at;                /* profile time, s */
+	const struct metric *metric;
 };
 
 struct metric {
@@ -28,6 +36,7 @@ struct metric {
 	bool profile; /* taken at a profile time */
 	/* EX_DATAERR where the file lacks what is needed. */
 	int (*value)(const struct sample *sample, double *out, struct error *err);
+	const char *dataset; /* that `value` reads, where it could read others too; NULL */
 };
 
 /* NULL if there is none of that name; then `nearest` is the name that comes closest. */
