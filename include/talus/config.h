@@ -104,7 +104,7 @@ struct config {
 		double series_every;          /* s; 0: every step */
 		double front_threshold;       /* h - h_i at the front, m */
 		double static_speed;          /* a layer slower than this is at rest, m/s */
-		double steady_surface; /* int phi where the exact steady flow with walls begins, m */
+		double steady_surface;        /* int phi where the exact steady flow with walls begins, m */
 	} output;
 	struct {
 		double every;    /* wall clock, s; 0: off */

@@ -127,13 +127,16 @@ static int check_fractions(
 		return 0;
 	for (int i = 0; i < fractions->count; i++)
 		sum += fractions->values[i];
-	if (fractions->count != config->layers)
+	if (fractions->count != config->layers) {
 		(void)error_set(err, EX_DATAERR, "layer_fractions: %d values for layers: %d",
 			fractions->count, config->layers);
-	else if (fabs(sum - 1) > 1e-9)
-		(void)error_set(
-			err, EX_DATAERR, "layer_fractions: they add up to %s, not to 1", text_real(sum, shown));
-	return err->code ? field_blame(reader, "layer_fractions", "layers", -1, err) : 0;
+		return field_blame(reader, "layer_fractions", "layers", -1, err);
+	}
+	if (fabs(sum - 1) <= 1e-9)
+		return 0;
+	(void)error_set(
+		err, EX_DATAERR, "layer_fractions: they add up to %s, not to 1", text_real(sum, shown));
+	return field_blame(reader, "layer_fractions", NULL, -1, err);
 }
 
 /* Grains that do not sink have no weight to press them together. */

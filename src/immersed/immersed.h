@@ -150,7 +150,7 @@ void immersed_assemble(struct model_state *s, const struct immersed_column *x,
 void immersed_units(const struct model_state *s, double *p, double *S);
 
 /* Series and profiles (observe.c), as struct model describes them. */
-enum { IMMERSED_SERIES_COUNT = 15, IMMERSED_PROFILE_COUNT = 7 };
+enum { IMMERSED_SERIES_COUNT = 18, IMMERSED_PROFILE_COUNT = 7 };
 extern const struct series immersed_series[IMMERSED_SERIES_COUNT];
 extern const struct profile immersed_profiles[IMMERSED_PROFILE_COUNT];
 void immersed_observe(const struct model_state *s, double *values);

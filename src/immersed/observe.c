@@ -6,10 +6,13 @@
 enum {
 	MAX_SPEED,
 	MEAN_SPEED,
+	STEADY_MAX_SPEED,
+	STEADY_MEAN_SPEED,
 	FRACTION,
 	EQUILIBRIUM_FRACTION,
 	BOTTOM_PRESSURE,
 	EXCESS_PRESSURE,
+	PRESSURE_ROOT,
 	PRESSURE_ERROR,
 	HEIGHT,
 	FLUID_TRANSFER,
@@ -30,6 +33,15 @@ const struct series immersed_series[IMMERSED_SERIES_COUNT] = {
 		.units = "m s-1",
 		.long_name = "velocity of the grains, mean over the height",
 		.slope_of = -1},
+	[STEADY_MAX_SPEED] = {.name = "steady_max_speed",
+		.units = "m s-1",
+		.long_name =
+			"velocity of the uppermost layer in the exact steady flow of the present height",
+		.slope_of = -1},
+	[STEADY_MEAN_SPEED] = {.name = "steady_mean_speed",
+		.units = "m s-1",
+		.long_name = "velocity in the exact steady flow of the present height, mean over it",
+		.slope_of = -1},
 	[FRACTION] = {.name = "fraction",
 		.units = "1",
 		.long_name = "volume share of the grains, mean over the height",
@@ -47,10 +59,14 @@ const struct series immersed_series[IMMERSED_SERIES_COUNT] = {
 		.units = "Pa",
 		.long_name = "excess pore fluid pressure at the bottom",
 		.slope_of = -1},
+	[PRESSURE_ROOT] = {.name = "bottom_pressure_root",
+		.units = "Pa",
+		.long_name = "solid pressure at the bottom, root of P4 eq. 45 for the present velocities",
+		.slope_of = -1},
 	[PRESSURE_ERROR] = {.name = "pressure_error",
 		.units = "1",
-		.long_name = "relative distance of the solid pressure from the root of P4 eq. 45, largest "
-					 "over the interfaces",
+		.long_name = "relative distance of the solid pressure from that root, largest over the "
+					 "interfaces",
 		.slope_of = -1},
 	[HEIGHT] = {.name = "height",
 		.units = "m",
@@ -106,6 +122,12 @@ const struct profile immersed_profiles[IMMERSED_PROFILE_COUNT] = {
 		"volume share of the grains in the exact steady flow, layer means", PROFILE_LAYER, false},
 };
 
+static void copy(const struct model_state *s, const double *from, double *values)
+{
+	for (int a = 0; a < s->layers; a++)
+		values[a] = from[a];
+}
+
 /* The solid pressure that the weight alone would make, at each interface. */
 static void hydrostatic(const struct model_state *s, double h, double *p)
 {
@@ -114,21 +136,31 @@ static void hydrostatic(const struct model_state *s, double h, double *p)
 		p[a] = p[a + 1] + s->par.weight * s->l[a] * h * s->now.phi[a];
 }
 
-/* The exact root is looked for in the scratch column, which no step needs once it is done. */
-static double pressure_error(const struct model_state *s, double h)
+/* The pressure against the root of its equation, which is looked for in the scratch column: no step
+ * needs that once it is done. */
+static void observe_root(const struct model_state *s, double h, double *values)
 {
 	struct immersed_column c = s->now;
-	double worst = 0;
+	bool found;
 
 	c.p = s->known.p;
 	c.S = s->known.S;
+	copy(s, s->now.p, c.p);
+	found = immersed_pressure_exact(s, &c, h) > 0;
+	values[PRESSURE_ROOT] = found ? c.p[0] : NAN;
+	values[PRESSURE_ERROR] = found ? 0 : NAN;
+	for (int a = 0; found && a < s->layers; a++)
+		values[PRESSURE_ERROR] = fmax(values[PRESSURE_ERROR], fabs(s->now.p[a] / c.p[a] - 1));
+}
+
+static void observe_steady(const struct model_state *s, double *values)
+{
+	double *v = s->known.v;
+
+	immersed_exact(s, v, s->known.phi);
+	values[STEADY_MAX_SPEED] = v[s->layers - 1];
 	for (int a = 0; a < s->layers; a++)
-		c.p[a] = s->now.p[a];
-	if (immersed_pressure_exact(s, &c, h) < 0)
-		return NAN;
-	for (int a = 0; a < s->layers; a++)
-		worst = fmax(worst, fabs(s->now.p[a] / c.p[a] - 1));
-	return worst;
+		values[STEADY_MEAN_SPEED] += s->l[a] * v[a];
 }
 
 void immersed_observe(const struct model_state *s, double *values)
@@ -153,7 +185,8 @@ void immersed_observe(const struct model_state *s, double *values)
 	}
 	values[BOTTOM_PRESSURE] = c->p[0];
 	values[EXCESS_PRESSURE] = weight - c->p[0];
-	values[PRESSURE_ERROR] = pressure_error(s, h);
+	observe_root(s, h, values);
+	observe_steady(s, values);
 	values[HEIGHT] = h;
 	values[FLUID_TRANSFER] = s->par.keeps_mass ? top * h / s->mass : top;
 	values[SOLID_TRANSFER] = s->par.keeps_mass ? 0 : -top;
@@ -161,12 +194,6 @@ void immersed_observe(const struct model_state *s, double *values)
 	values[STEPS] = s->record.steps;
 	values[REJECTED_STEPS] = s->record.rejected;
 	values[NEWTON_ITERATIONS] = s->record.newton_iterations;
-}
-
-static void copy(const struct model_state *s, const double *from, double *values)
-{
-	for (int a = 0; a < s->layers; a++)
-		values[a] = from[a];
 }
 
 void immersed_profile(const struct model_state *s, size_t index, double *values)

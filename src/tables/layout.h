@@ -32,7 +32,7 @@ enum { LAYOUT_NOWHERE = -1 };
 
 /* The place of a run. */
 struct place {
-	long row, column;  /* LAYOUT_NOWHERE: not in this table */
+	long row, column;         /* LAYOUT_NOWHERE: not in this table */
 	size_t partner[PARTNERS]; /* by enum metric_partner: index of the run it is compared with */
 };
 

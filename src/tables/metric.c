@@ -168,8 +168,8 @@ static int l2_difference(const struct sample *sample, double *out, struct error 
 static const struct metric metrics[] = {
 	{"iterations", "iterations", "", 0, PARTNER_NONE, false, metric_series_greatest,
 		"pressure_iterations"},
-	{"coarse-iterations", "coarse iterations", "", 0, PARTNER_NONE, false,
-		metric_series_greatest, "coarse_iterations"},
+	{"coarse-iterations", "coarse iterations", "", 0, PARTNER_NONE, false, metric_series_greatest,
+		"coarse_iterations"},
 	{"cpu-seconds", "CPU", "s", -1, PARTNER_NONE, false, cpu_seconds, NULL},
 	{"speed-up", "speed-up", "", 2, PARTNER_BASELINE, false, speed_up, NULL},
 	{"step-share-transport", "step 1", "%", 1, PARTNER_NONE, false, share_transport, NULL},
@@ -217,8 +217,8 @@ static const struct metric metrics[] = {
 		"max_speed"},
 	{"transfer-sign-change", "G_f changes sign at", "s", -1, PARTNER_NONE, false,
 		metric_series_sign_change, "fluid_transfer"},
-	{"speed-difference", "v max apart", "%", 3, PARTNER_REFERENCE, false,
-		metric_series_difference, "max_speed"},
+	{"speed-difference", "v max apart", "%", 3, PARTNER_REFERENCE, false, metric_series_difference,
+		"max_speed"},
 	{"newton-iterations", "Newton iterations", "", 0, PARTNER_NONE, false, metric_series_last,
 		"newton_iterations"},
 };

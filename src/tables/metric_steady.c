@@ -24,8 +24,8 @@ static int read_row(
 }
 
 /* ||x - exact||/||exact||, layers weighted by their thickness; power 0: the largest. */
-static int compare(struct run_file *file, const char *name, double at, int power, double *out,
-	struct error *err)
+static int compare(
+	struct run_file *file, const char *name, double at, int power, double *out, struct error *err)
 {
 	struct dataset mine = {0}, exact = {0}, interface = {0};
 	double apart = 0, whole = 0;
