@@ -56,6 +56,14 @@ struct experiment_table {
 	const struct node *published;  /* rows of columns of metrics, NULL: none */
 };
 
+/* A file of measured values, for tables and plots; src/tables reads it. */
+struct experiment_observation {
+	struct term file;         /* as written */
+	char *path;               /* of the file: the written one lies beside the experiment */
+	const char *title;        /* of the legend, "": "observed" */
+	struct setting_list only; /* values of the runs that it is of */
+};
+
 /* Published values that a panel shows beside ours. */
 struct experiment_points {
 	const char *title;     /* of the legend, "": that of the source */
@@ -105,6 +113,8 @@ struct experiment {
 	size_t run_count;
 	struct experiment_table *tables; /* [table_count] */
 	size_t table_count;
+	struct experiment_observation *observations; /* [observation_count] */
+	size_t observation_count;
 	struct experiment_plot *plots; /* [plot_count] */
 	size_t plot_count;
 
@@ -130,6 +140,11 @@ void experiment_clean(struct experiment *experiment);
 /* The config of `run` with `more` on top. A bad one among `more` is cited with its place. */
 int experiment_vary(const struct experiment *experiment, const struct experiment_run *run,
 	const struct setting_list *more, struct config *config, struct error *err);
+
+/* Does the run have all these values, however they are written? Values that it cannot have are not its
+ * own. */
+int experiment_has(const struct experiment *experiment, const struct experiment_run *run,
+	const struct setting_list *values, bool *has, struct error *err);
 
 /* The index of the run with this config and repeat; run_count if the experiment has none. */
 int experiment_find(const struct experiment *experiment, const struct config *config, int repeat,

@@ -64,7 +64,7 @@ int table_check(const struct experiment *experiment, struct error *err);
 /* NULL if there is none of that name. */
 const struct table_format *table_format_find(const char *name);
 
-/* "text, markdown, csv" */
+/* "text, markdown, csv, ..." */
 void table_format_names(struct text *out);
 
 #endif

@@ -98,6 +98,36 @@ int experiment_vary(const struct experiment *experiment, const struct experiment
 	return parse(experiment, &run->settings, more, config, err);
 }
 
+int experiment_has(const struct experiment *experiment, const struct experiment_run *run,
+	const struct setting_list *values, bool *has, struct error *err)
+{
+	struct text mine = {0}, other = {0};
+	struct error refusal = {0};
+	struct config config;
+	int result = 0;
+
+	*has = true;
+	if (!values->count)
+		return 0;
+	if (experiment_vary(experiment, run, values, &config, &refusal)) {
+		*has = false;
+		if (refusal.code != EX_DATAERR)
+			*err = refusal;
+		return refusal.code == EX_DATAERR ? 0 : -1;
+	}
+	for (size_t i = 0; !result && *has && i < values->count; i++) {
+		const char *key = values->items[i].key;
+
+		mine.length = other.length = 0;
+		result =
+			config_value(&run->config, key, &mine, err) || config_value(&config, key, &other, err);
+		*has = !result && !strcmp(text_string(&mine), text_string(&other));
+	}
+	text_clean(&mine);
+	text_clean(&other);
+	return result ? -1 : 0;
+}
+
 static size_t find_hash(const struct experiment *experiment, const char *hash, int repeat)
 {
 	size_t i = 0;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "campaign/expand.h"
+#include "campaign/experiment_observations.h"
 #include "campaign/experiment_plots.h"
 #include "campaign/reader.h"
 #include "campaign/setting.h"
@@ -155,6 +156,11 @@ static int read_tables(const struct reader *reader, const struct node *node, voi
 	return 0;
 }
 
+static int read_observations(const struct reader *reader, const struct node *node, void *target)
+{
+	return experiment_observations_read(reader, node, ((struct form *)target)->experiment);
+}
+
 static int read_plots(const struct reader *reader, const struct node *node, void *target)
 {
 	return experiment_plots_read(reader, node, ((struct form *)target)->experiment);
@@ -199,6 +205,7 @@ static int read_form(const struct reader *reader, struct form *form)
 		{"timing", read_timing},
 		{"tables", read_tables},
 		{"plots", read_plots},
+		{"observations", read_observations},
 		{"published", read_published},
 	};
 	struct experiment *experiment = form->experiment;
@@ -214,15 +221,12 @@ static int load_base(
 	const struct reader *reader, struct experiment *experiment, const struct node *base)
 {
 	enum { LIMIT = 1 << 20 }; /* what yaml_parse takes */
-	const char *slash = strrchr(experiment->path, '/');
-	int directory = base->text[0] != '/' && slash ? (int)(slash + 1 - experiment->path) : 0;
 	FILE *file;
 	int result = -1;
 
-	if (asprintf(&experiment->base, "%.*s%s", directory, experiment->path, base->text) < 0) {
-		experiment->base = NULL;
+	experiment->base = reader_file(reader, base->text);
+	if (!experiment->base)
 		return error_memory(reader->err, strlen(experiment->path) + strlen(base->text));
-	}
 	experiment->base_text = malloc(LIMIT + 1);
 	if (!experiment->base_text)
 		return error_memory(reader->err, LIMIT + 1);
@@ -320,6 +324,7 @@ void experiment_clean(struct experiment *experiment)
 	free(experiment->runs);
 	free(experiment->tables);
 	experiment_plots_clean(experiment);
+	experiment_observations_clean(experiment);
 	free(experiment->path);
 	free(experiment->folder);
 	free(experiment->base);

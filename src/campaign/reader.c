@@ -103,6 +103,15 @@ int reader_bool(const struct reader *reader, const struct node *node, bool *out)
 	return 0;
 }
 
+char *reader_file(const struct reader *reader, const char *name)
+{
+	const char *slash = strrchr(reader->path, '/');
+	int folder = name[0] != '/' && slash ? (int)(slash + 1 - reader->path) : 0;
+	char *path;
+
+	return asprintf(&path, "%.*s%s", folder, reader->path, name) < 0 ? NULL : path;
+}
+
 int reader_terms(const struct reader *reader, const struct node *node, struct term_list *out)
 {
 	const struct node *items = node->kind == NODE_SEQUENCE ? node->items : node;

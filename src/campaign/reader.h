@@ -29,6 +29,9 @@ int reader_integer(
 	const struct reader *reader, const struct node *node, int min, int max, int *out);
 int reader_bool(const struct reader *reader, const struct node *node, bool *out);
 
+/* The path of a file that the experiment names: a relative one starts at its folder. NULL out of memory. */
+char *reader_file(const struct reader *reader, const char *name);
+
 /* One scalar, or a list of them. */
 int reader_terms(const struct reader *reader, const struct node *node, struct term_list *out);
 

@@ -16,7 +16,7 @@ static const char help[] =
 	"       talus tables [OPTION]... EXPERIMENT\n"
 	"example: talus-tables --format markdown experiments/quickstart.yaml\n\n"
 	"options:\n"
-	"  -f, --format NAME    text, markdown or csv (default: text)\n"
+	"  -f, --format NAME    text, markdown, csv, latex or json (default: text)\n"
 	"  -t, --table NAME     only this table; repeatable (default: all of the experiment)\n"
 	"  -o, --output FOLDER  folder of the run folders (default: results/<name of EXPERIMENT>)\n"
 	"  -s, --set KEY=VALUE  as given to `talus campaign run`; repeatable (default: none)\n"

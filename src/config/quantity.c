@@ -68,6 +68,13 @@ static const struct unit *unit_find(const char *name)
 	return NULL;
 }
 
+const char *quantity_si(const char *unit)
+{
+	const struct unit *row = unit_find(unit);
+
+	return row ? row->si : NULL;
+}
+
 /* "m, km, cm, mm or um" */
 static void list_units(const char *si, struct text *out)
 {

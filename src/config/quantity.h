@@ -11,6 +11,9 @@
  * 1.82 mm gives the double nearest to 0.00182. EX_DATAERR says what is wrong, without a place. */
 int quantity_read(const char *given, const char *unit, double *value, struct error *err);
 
+/* The SI unit of the kind of `unit`, as quantity_read wants it; NULL: no such unit is known. */
+const char *quantity_si(const char *unit);
+
 /* `value` and its SI unit, as quantity_read reads it back to the same bits. */
 void quantity_print(double value, const char *unit, struct text *out);
 

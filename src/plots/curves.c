@@ -345,24 +345,33 @@ done:
 	return result;
 }
 
+static void curve_clean(struct curve *curve)
+{
+	for (size_t d = 0; d < CURVES_PARTS_MAX; d++)
+		free(curve->parts[d]);
+	free(curve->x);
+	free(curve->y);
+	free(curve->spread);
+	free(curve->title);
+	free(curve->map.x);
+	free(curve->map.y);
+	free(curve->map.values);
+	text_clean(&curve->map.label.text);
+}
+
+void curves_drop(struct curves *curves)
+{
+	curve_clean(&curves->items[--curves->count]);
+}
+
 void curves_clean(struct curves *curves)
 {
-	for (size_t i = 0; i < curves->count; i++) {
-		struct curve *curve = &curves->items[i];
-
-		for (size_t d = 0; d < CURVES_PARTS_MAX; d++)
-			free(curve->parts[d]);
-		free(curve->x);
-		free(curve->y);
-		free(curve->spread);
-		free(curve->title);
-		free(curve->map.x);
-		free(curve->map.y);
-		free(curve->map.values);
-		text_clean(&curve->map.label.text);
-	}
+	for (size_t i = 0; i < curves->count; i++)
+		curve_clean(&curves->items[i]);
 	free(curves->items);
 	text_clean(&curves->x.label.text);
 	text_clean(&curves->y.label.text);
+	text_clean(&curves->units[0]);
+	text_clean(&curves->units[1]);
 	*curves = (struct curves){0};
 }

@@ -30,6 +30,7 @@ struct curves {
 	size_t count;
 	enum figure_mark mark;
 	struct figure_axis x, y;
+	struct text units[2]; /* of x and y in the run files */
 };
 
 /* A new dimension; false if there are too many. */
@@ -37,6 +38,9 @@ bool curves_add_dimension(struct curves *curves, const char *name, bool split, b
 
 /* A new curve at the end, NULL out of memory. */
 struct curve *curves_add(struct curves *curves, struct error *err);
+
+/* Take the curve at the end away again. */
+void curves_drop(struct curves *curves);
 
 /* Set a part of a curve; NULL: does not matter. */
 int curves_set_part(struct curve *curve, size_t dimension, const char *text, struct error *err);

@@ -127,6 +127,7 @@ int kind_axis(const struct kind_request *request, const struct kind_run *run, in
 		TRY(read_unit(request->path, &wanted->units[index], &all, factor, err));
 	if (axis->label.text.length)
 		return 0;
+	text_add(&request->curves->units[index], all.unit);
 	if (*wanted->labels[index])
 		text_add(&axis->label.text, wanted->labels[index]);
 	else

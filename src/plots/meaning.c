@@ -38,6 +38,8 @@ static const struct known {
 	{"runout", "runout", "{/:Italic r}_f"},
 	{"stopping-time", "stopping time", "{/:Italic t}_f"},
 	{"final-thickness", "greatest final thickness", "{/:Italic h}_f"},
+	{"front-velocity", "greatest front velocity", "{/:Italic v}"},
+	{"front-velocity-time", "time of the greatest front velocity", "{/:Italic t}"},
 	{"cpu-seconds", "CPU time", ""},
 };
 
@@ -47,7 +49,7 @@ static const struct {
 } scales[] = {
 	{"m", "{/:Italic h}_0"},
 	{"s", "{/:Italic τ}_c"},
-	{"m s-1", "{/:Italic v}_0"},
+	{"m/s", "{/:Italic v}_0"},
 };
 enum { SCALES = sizeof scales / sizeof *scales };
 
@@ -75,12 +77,15 @@ double meaning_settles(const char *name)
 /* The row of `scales` for a unit; SCALES: none. What the computer took is no time of the flow. */
 static size_t find_scale(const char *name, const char *unit)
 {
+	struct text short_unit = {0};
 	size_t i = 0;
 
 	if (!strncmp(name, "cpu", 3) || !strncmp(name, "wall", 4))
 		return SCALES;
-	while (i < SCALES && strcmp(scales[i].unit, unit) != 0)
+	meaning_unit(unit, &short_unit);
+	while (i < SCALES && strcmp(scales[i].unit, text_string(&short_unit)) != 0)
 		i++;
+	text_clean(&short_unit);
 	return i;
 }
 

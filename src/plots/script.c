@@ -9,7 +9,7 @@ enum {
 	FONT_SIZE = 11,
 	LEFT = 66, /* of a panel: room for its labels */
 	RIGHT = 18,
-	TOP = 12,
+	TOP = 6,
 	TITLE = 20, /* and for its title, */
 	BOTTOM = 44,
 	COLOUR_BOX = 64, /* and for the colours of a map */

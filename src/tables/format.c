@@ -5,7 +5,10 @@
 
 #include "tables/format.h"
 
-/* Enough decimals for three significant digits. */
+/* Values below 10^SMALL are written as 3.05e-05 where significant digits count. */
+enum { SMALL = -3, EXPONENT = -1 };
+
+/* Enough decimals for three significant digits, or EXPONENT. */
 static int decimals_of(const struct table_column *column, double value)
 {
 	int whole;
@@ -15,7 +18,15 @@ static int decimals_of(const struct table_column *column, double value)
 	if (value == 0 || !isfinite(value))
 		return 2;
 	whole = (int)floor(log10(fabs(value))) + 1;
-	return whole >= 3 ? 0 : whole < -6 ? 9 : 3 - whole;
+	return whole >= 3 ? 0 : whole < SMALL ? EXPONENT : 3 - whole;
+}
+
+static void add_number(double value, int decimals, struct text *out)
+{
+	if (decimals == EXPONENT)
+		text_addf(out, "%.2e", value);
+	else
+		text_addf(out, "%.*f", decimals, value);
 }
 
 void format_cell(const struct table_column *column, const struct table_cell *cell, struct text *out)
@@ -32,9 +43,11 @@ void format_cell(const struct table_column *column, const struct table_cell *cel
 		text_add(out, "missing");
 		break;
 	case CELL_NUMBER:
-		text_addf(out, "%.*f", decimals, cell->value);
-		if (column->spread)
-			text_addf(out, " \u00b1 %.*f", decimals, cell->spread);
+		add_number(cell->value, decimals, out);
+		if (column->spread) {
+			text_add(out, " \u00b1 ");
+			add_number(cell->spread, decimals, out);
+		}
 		break;
 	}
 }
@@ -55,6 +68,16 @@ static void add_markdown(struct text *out, const char *string)
 		text_add_bytes(out, *string == '\n' ? " " : string, 1);
 	}
 	text_add(out, " |");
+}
+
+void format_note_lines(const struct table *table, const char *mark, struct text *out)
+{
+	for (const char *line = text_string(&table->notes); *line;) {
+		size_t length = strcspn(line, "\n");
+
+		text_addf(out, "%s%.*s\n", mark, (int)length, line);
+		line += length + (line[length] == '\n');
+	}
 }
 
 static void print_markdown(const struct table *table, struct text *out)
@@ -81,12 +104,7 @@ static void print_markdown(const struct table *table, struct text *out)
 		}
 	}
 	text_add(out, "\n\n");
-	for (const char *line = text_string(&table->notes); *line;) {
-		size_t length = strcspn(line, "\n");
-
-		text_addf(out, "- %.*s\n", (int)length, line);
-		line += length + (line[length] == '\n');
-	}
+	format_note_lines(table, "- ", out);
 }
 
 /* RFC 4180: quotes where a field holds a comma, a quote or a line end; lines end in CR LF. */
@@ -156,6 +174,8 @@ static const struct table_format formats[] = {
 	{"text", false, format_text},
 	{"markdown", false, print_markdown},
 	{"csv", true, print_csv},
+	{"latex", false, format_latex},
+	{"json", true, format_json},
 };
 
 const struct table_format *table_format_find(const char *name)

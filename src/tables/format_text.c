@@ -16,8 +16,17 @@ static int width_of(const char *string)
 	return width;
 }
 
-/* The head of a column in a line; that of a label stands in the last line. */
-static const char *head_at(const struct table *table, size_t c, size_t line, size_t lines)
+size_t format_head_lines(const struct table *table)
+{
+	size_t lines = 1;
+
+	for (size_t c = 0; c < table->column_count; c++)
+		if (table->columns[c].head_count > lines)
+			lines = table->columns[c].head_count;
+	return lines;
+}
+
+const char *format_head_at(const struct table *table, size_t c, size_t line, size_t lines)
 {
 	const struct table_column *column = &table->columns[c];
 	size_t skipped = column->label ? lines - column->head_count : 0;
@@ -26,8 +35,7 @@ static const char *head_at(const struct table *table, size_t c, size_t line, siz
 																  : column->heads[line - skipped];
 }
 
-/* The column behind those that share all heads down to `line` with column c. */
-static size_t group_end(const struct table *table, size_t c, size_t line)
+size_t format_group_end(const struct table *table, size_t c, size_t line)
 {
 	const struct table_column *first = &table->columns[c];
 	size_t end = c + 1;
@@ -75,8 +83,8 @@ static void fit_heads(const struct table *table, size_t lines, int *widths)
 		for (size_t c = 0, end; c < table->column_count; c = end) {
 			int missing;
 
-			end = group_end(table, c, line);
-			missing = width_of(head_at(table, c, line, lines)) - group_width(widths, c, end);
+			end = format_group_end(table, c, line);
+			missing = width_of(format_head_at(table, c, line, lines)) - group_width(widths, c, end);
 			if (missing > 0)
 				widths[end - 1] += missing;
 		}
@@ -109,8 +117,8 @@ static void print_heads(
 {
 	for (size_t line = 0; line < lines; line++) {
 		for (size_t c = 0, end; c < table->column_count; c = end) {
-			end = group_end(table, c, line);
-			add_padded(out, head_at(table, c, line, lines), group_width(widths, c, end),
+			end = format_group_end(table, c, line);
+			add_padded(out, format_head_at(table, c, line, lines), group_width(widths, c, end),
 				table->columns[c].label, end > c + 1);
 		}
 		end_line(out);
@@ -137,15 +145,12 @@ static void print_rows(const struct table *table, const int *widths, struct text
 void format_text(const struct table *table, struct text *out)
 {
 	int *widths = calloc(table->column_count + 1, sizeof *widths);
-	size_t lines = 1;
+	size_t lines = format_head_lines(table);
 
 	if (!widths) {
 		out->failed = true;
 		return;
 	}
-	for (size_t c = 0; c < table->column_count; c++)
-		if (table->columns[c].head_count > lines)
-			lines = table->columns[c].head_count;
 	fit_cells(table, widths);
 	fit_heads(table, lines, widths);
 	text_addf(out, "%s\n\n", text_string(&table->title));

@@ -122,38 +122,6 @@ refused:
 	return -1;
 }
 
-/* Does the run have the values of `only`? A value that this run cannot have is not its own. */
-static int is_wanted(
-	const struct layout *layout, const struct experiment_run *run, bool *wanted, struct error *err)
-{
-	const struct setting_list *only = &layout->wanted->only;
-	struct text mine = {0}, other = {0};
-	struct error refusal = {0};
-	struct config config;
-	int result = 0;
-
-	*wanted = true;
-	if (!only->count)
-		return 0;
-	if (experiment_vary(layout->experiment, run, only, &config, &refusal)) {
-		*wanted = false;
-		if (refusal.code != EX_DATAERR)
-			*err = refusal;
-		return refusal.code == EX_DATAERR ? 0 : -1;
-	}
-	for (size_t i = 0; !result && *wanted && i < only->count; i++) {
-		const struct setting *setting = &only->items[i];
-
-		mine.length = other.length = 0;
-		result = config_value(&run->config, setting->key, &mine, err) ||
-				 config_value(&config, setting->key, &other, err);
-		*wanted = !result && !strcmp(text_string(&mine), text_string(&other));
-	}
-	text_clean(&mine);
-	text_clean(&other);
-	return result ? -1 : 0;
-}
-
 /* Nothing has the values of `only`: the reason is one that no run can have, or just that. */
 static int fail_empty(const struct layout *layout, struct error *err)
 {
@@ -176,7 +144,7 @@ static int place_runs(struct layout *layout, struct error *err)
 		bool wanted;
 
 		*place = (struct place){.row = LAYOUT_NOWHERE, .column = LAYOUT_NOWHERE};
-		TRY(is_wanted(layout, run, &wanted, err));
+		TRY(experiment_has(experiment, run, &layout->wanted->only, &wanted, err));
 		if (!wanted)
 			continue;
 		any = true;
@@ -295,6 +263,65 @@ int layout_check_time(const struct layout *layout, const struct term *term, doub
 	return 0;
 }
 
+int layout_observed(const struct layout *layout, const struct experiment_run *run, const char *name,
+	bool over_x, const struct observed **out, struct error *err)
+{
+	const struct experiment *experiment = layout->experiment;
+
+	*out = NULL;
+	for (size_t i = 0; !*out && i < experiment->observation_count; i++) {
+		bool has = observed_has(&layout->observed[i], name, over_x);
+
+		if (has)
+			TRY(experiment_has(experiment, run, &experiment->observations[i].only, &has, err));
+		if (has)
+			*out = &layout->observed[i];
+	}
+	return 0;
+}
+
+static int read_observations(struct layout *layout, struct error *err)
+{
+	const struct experiment *experiment = layout->experiment;
+
+	layout->observed = calloc(experiment->observation_count + 1, sizeof *layout->observed);
+	if (!layout->observed)
+		return error_memory(err, (experiment->observation_count + 1) * sizeof *layout->observed);
+	for (size_t i = 0; i < experiment->observation_count; i++)
+		TRY(observed_read(&layout->observed[i], experiment->observations[i].path, err));
+	return 0;
+}
+
+/* What is compared with observations needs some of every run, at the time of the comparison. */
+static int check_observed(const struct layout *layout, const struct measure *measure,
+	const struct term *term, struct error *err)
+{
+	const struct metric *metric = measure->metric;
+
+	for (size_t i = 0; i < layout->experiment->run_count; i++) {
+		const struct experiment_run *run = &layout->experiment->runs[i];
+		double at = isnan(measure->at) ? run->config.time.end : measure->at;
+		const struct observed *observed;
+		struct observed_line line;
+		int result;
+
+		if (layout->places[i].row == LAYOUT_NOWHERE)
+			continue;
+		TRY(layout_observed(layout, run, metric->observes, metric->profile, &observed, err));
+		if (!observed)
+			return layout_fail(layout, term, err, "run %s has no observations of %s over %s",
+				run->id, metric->observes, metric->profile ? "x" : "time");
+		result = observed_line(observed, metric->observes, at, &line, err);
+		if (!result && line.count < 2)
+			result = layout_fail(layout, term, err,
+				"the observations of run %s have fewer than two values of %s at %g s", run->id,
+				metric->observes, at);
+		observed_line_clean(&line);
+		TRY(result);
+	}
+	return 0;
+}
+
 static int add_measure(struct layout *layout, const struct metric *metric, const struct term *name,
 	const struct term *at, struct error *err)
 {
@@ -303,9 +330,10 @@ static int add_measure(struct layout *layout, const struct metric *metric, const
 	*measure = (struct measure){metric, NAN, at ? at->text : NULL};
 	if (at && quantity_read(at->text, "s", &measure->at, err))
 		return layout_place_error(layout, at, err);
-	return metric->profile ? layout_check_time(layout, at ? at : name, measure->at,
-								 at ? at->text : "time.end", err)
-						   : 0;
+	if (metric->profile)
+		TRY(layout_check_time(
+			layout, at ? at : name, measure->at, at ? at->text : "time.end", err));
+	return metric->observes ? check_observed(layout, measure, at ? at : name, err) : 0;
 }
 
 /* Every metric once, those of a profile once for every time. */
@@ -343,6 +371,7 @@ int layout_create(struct layout *layout, const struct experiment *experiment,
 	layout->places = calloc(experiment->run_count, sizeof *layout->places);
 	if (!layout->places)
 		return error_memory(err, experiment->run_count * sizeof *layout->places);
+	TRY(read_observations(layout, err));
 	TRY(place_runs(layout, err));
 	TRY(refuse_crowds(layout, err));
 	TRY(list_measures(layout, err));
@@ -364,6 +393,9 @@ void layout_clean(struct layout *layout)
 	free(layout->measures);
 	free(layout->places);
 	free(layout->published);
+	for (size_t i = 0; layout->observed && i < layout->experiment->observation_count; i++)
+		observed_clean(&layout->observed[i]);
+	free(layout->observed);
 	free(layout->what);
 	*layout = (struct layout){0};
 }

@@ -43,8 +43,9 @@ struct layout {
 	struct label_list rows, columns;
 	struct measure *measures; /* [measure_count] */
 	size_t measure_count;
-	struct place *places;   /* one per run of the experiment */
-	const char **published; /* [rows][columns][measures], NULL: blank; NULL if there are none */
+	struct place *places;      /* one per run of the experiment */
+	struct observed *observed; /* the files of the experiment's observations, in their order */
+	const char **published;    /* [rows][columns][measures], NULL: blank; NULL if there are none */
 };
 
 /* EX_DATAERR with the place in the experiment file where it asks for what cannot be. `noun` says in
@@ -65,6 +66,10 @@ int layout_place_error(const struct layout *layout, const struct term *term, str
  * it would be missing for ever. */
 int layout_check_time(const struct layout *layout, const struct term *term, double at,
 	const char *at_text, struct error *err);
+
+/* The observations of a run that have this dataset, over x or over time; NULL: there are none. */
+int layout_observed(const struct layout *layout, const struct experiment_run *run, const char *name,
+	bool over_x, const struct observed **out, struct error *err);
 
 /* Read the published values: src/tables/published.c. */
 int layout_read_published(struct layout *layout, struct error *err);

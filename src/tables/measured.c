@@ -59,7 +59,8 @@ static void measure(struct measured *measured, size_t index, struct run_file *fi
 	const struct experiment *experiment = measured->layout->experiment;
 	const struct experiment_run *run = &experiment->runs[index];
 	const struct metric *metric = measure->metric;
-	struct sample sample = {file, &run->config, NULL, measure->at, metric};
+	struct sample sample = {
+		.file = file, .config = &run->config, .at = measure->at, .metric = metric};
 	struct error err = {0};
 
 	if (isnan(sample.at))
@@ -76,7 +77,9 @@ static void measure(struct measured *measured, size_t index, struct run_file *fi
 			return;
 		}
 	}
-	if (metric->value(&sample, value, &err)) {
+	if ((metric->observes && layout_observed(measured->layout, run, metric->observes,
+								 metric->profile, &sample.observed, &err)) ||
+		metric->value(&sample, value, &err)) {
 		*value = NAN;
 		tell_missing(measured, run, metric->name, err.text);
 	} else if (!isfinite(*value)) {

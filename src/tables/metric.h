@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "tables/observed.h"
 #include "talus/config.h"
 #include "talus/error.h"
 #include "talus/run_file.h"
@@ -22,8 +23,9 @@ enum metric_partner {
 struct sample {
 	struct run_file *file;
 	const struct config *config;
-	struct run_file *partner; /* of the kind the metric asks for, else NULL */
-	double at;                /* profile time, s */
+	struct run_file *partner;        /* of the kind the metric asks for, else NULL */
+	double at;                       /* profile time, s */
+	const struct observed *observed; /* that have the dataset the metric observes, else NULL */
 	const struct metric *metric;
 };
 
@@ -33,7 +35,8 @@ struct metric {
 	const char *unit;   /* "" if none */
 	int decimals;       /* -1: three significant digits */
 	enum metric_partner partner;
-	bool profile; /* taken at a profile time */
+	bool profile;         /* taken at a profile time */
+	const char *observes; /* dataset that is compared with observations, NULL: none */
 	/* EX_DATAERR where the file lacks what is needed. */
 	int (*value)(const struct sample *sample, double *out, struct error *err);
 	const char *dataset; /* that `value` reads, where it could read others too; NULL */

@@ -7,7 +7,7 @@ try() # ARGUMENT...
 }
 try
 try none.yaml
-try --format latex study.yaml
+try --format html study.yaml
 try --table
 printf 'base: collapse.yaml\n' >study.yaml
 try study.yaml

@@ -22,6 +22,14 @@ talus-tables study.yaml | notes
 talus-tables --format markdown --table t study.yaml | notes
 talus tables --format csv --table t study.yaml | tr '\r' '$'
 talus-tables --format csv --table u study.yaml | tr '\r' '$'
+talus tables --format latex --table t study.yaml | notes
+talus tables --format json --table t study.yaml | notes | sed 's/Made by talus .*/Made by talus BUILD",/; s/Made on .*/Made on HOST",/'
+rm -r results/study/layers-2_pressure-hydrostatic-*
+talus tables --format json --table t study.yaml 2>err >table.json
+echo "exit $?"
+python3 -c 'import json
+table = json.load(open("table.json"))
+print([column["values"] for column in table["columns"]], [column.get("missing") for column in table["columns"]])'
 talus-tables --table u --set time.end=0.1 --set 'output.profiles_at=[0.1 s]' study.yaml >/dev/null 2>err
 echo "exit $?"
 mask err

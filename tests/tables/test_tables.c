@@ -399,6 +399,134 @@ static void markdown_and_csv_survive_their_own_marks(void **state)
 	experiment_clean(&e);
 }
 
+static void latex_and_json_survive_their_own_marks(void **state)
+{
+	struct experiment e = read_experiment(
+		"title: 'Marks \\ ^ ~ # $ % & _ { } \"<\u00b0>'\n"
+		"source: \"A|B\\t\"\n"
+		"base: base.yaml\n"
+		"runs: [{output.profiles_at: [[0.1 s, 0.3 s]], layers: [4, 8]}]\n"
+		"tables: [{name: t_1, rows: output.profiles_at, columns: layers, metric: iterations}]\n"
+		"published: {t_1: [[7, null]]}\n");
+	struct content content = complete(1, 9);
+	struct text missing;
+	char *text;
+
+	(void)state;
+	make_run(&e.runs[0], &content);
+	text = print(&e, "latex", &missing);
+	assert_string_equal(text,
+		"% \\usepackage{booktabs}\n"
+		"\\begin{table}\n\\centering\n"
+		"\\caption{t\\_1: Marks \\textbackslash{} \\textasciicircum{} \\textasciitilde{} \\# \\$ "
+		"\\% \\& "
+		"\\_ \\{ \\} \"\\textless{}\\textdegree{}\\textgreater{} (A\\textbar{}B\t)}\n"
+		"\\label{tab:t-1}\n"
+		"\\begin{tabular}{lrrr}\n\\toprule\n"
+		" & \\multicolumn{2}{c}{layers 4} & layers 8 \\\\\n\\cmidrule(lr){2-3}\n"
+		" & \\multicolumn{2}{c}{iterations} & iterations \\\\\n\\cmidrule(lr){2-3}\n"
+		"profiles\\_at & ours & A\\textbar{}B\t &  \\\\\n\\midrule\n"
+		"{[}0.1 s, 0.3 s{]} & 9 & 7 & \\emph{missing} \\\\\n\\bottomrule\n"
+		"\\end{tabular}\n\\end{table}\n"
+		"% Made by talus 0.1.0, abc, cc 1, -O3.\n% Made on here.\n% Again with: the command\n");
+	free(text);
+	text_clean(&missing);
+	text = print(&e, "json", &missing);
+	assert_non_null(strstr(text,
+		"  \"title\": \"t_1: Marks \\\\ ^ ~ # $ % & _ { } \\\"<\u00b0> (A|B\\u0009)\",\n"
+		"  \"columns\": [\n"
+		"    {\"heads\": [\"profiles_at\"], \"label\": true,\n"
+		"     \"values\": [\"[0.1 s, 0.3 s]\"]},\n"
+		"    {\"heads\": [\"layers 4\", \"iterations\", \"ours\"], \"label\": false,\n"
+		"     \"values\": [9]},\n"
+		"    {\"heads\": [\"layers 4\", \"iterations\", \"A|B\\u0009\"], \"label\": false,\n"
+		"     \"values\": [7]},\n"
+		"    {\"heads\": [\"layers 8\", \"iterations\"], \"label\": false,\n"
+		"     \"values\": [null],\n"
+		"     \"missing\": [true]}],\n"));
+	assert_non_null(strstr(text, "pending\"]\n}\n"));
+	free(text);
+	text_clean(&missing);
+	experiment_clean(&e);
+}
+
+static void errors_against_observations_are_relative_to_what_moved(void **state)
+{
+	/* h is 3, 5, 1, 1 m at x = 0, 1, 2, 3 m over a bed of 1 m; observed are 4 m at 0.5 and 2 m at
+	 * 2 m. Ours there: 4 and 1. The front is 0, 0.5, 1.25 m at 0, 0.15, 0.3 s. */
+	struct experiment e =
+		read_experiment("title: Errors\n"
+						"base: base.yaml\n"
+						"observations: [{file: h.csv, only: {layers: 4}}, {file: front.csv}]\n"
+						"tables: [{name: t, rows: layers, metric: [l2-observed, front-observed],\n"
+						"  at: 0.1 s}]\n");
+	struct content content = complete(1, 1);
+
+	(void)state;
+	memcpy(content.h, (double[2][4]){{3, 5, 1, 1}, {1, 1, 1, 1}}, sizeof content.h);
+	make_run(&e.runs[0], &content);
+	write_file("h.csv",
+		"\xEF\xBB\xBF# measured\r\n\r\n time [ms] , \"x\" ,h [cm]\r\n100,0.5,400\r\n 100,2 , "
+		"\"200\"\r\n300,0,\r\n");
+	write_file("front.csv", "time,front_position [cm]\n0.15,60\n0.3,125");
+	/* weights are equal: sqrt(0 + 1) / sqrt(9 + 1), and 0.1 / sqrt(0.36 + 1.5625) */
+	assert_table(&e, "csv",
+		"layers,\"l2 from observed %, at 0.1 s\",front from observed %\r\n"
+		"4,31.622776601683793,7.212184459746187\r\n");
+	experiment_clean(&e);
+}
+
+static void bad_observations_are_refused_with_their_place(void **state)
+{
+	static const struct {
+		const char *csv, *message;
+	} cases[] = {
+		{"", "h.csv:1:1: holds no values: a line that names its columns is wanted first"},
+		{"# only\n", "h.csv:2:1: holds no values: a line that names its columns is wanted first"},
+		{"time,x,h\n", "h.csv:2:1: holds no values below the names of its columns"},
+		{"t,x,h\n", "h.csv:1:1: a column 'time' is wanted: the first line names the columns"},
+		{"time,x\n", "h.csv:1:1: a column of values is wanted beside time and x, named like a "
+					 "dataset of the run files: h, front_position"},
+		{"time,x,h,h\n", "h.csv:1:10: column 'h' stands here twice"},
+		{"time,,h\n", "h.csv:1:6: the name of a column is wanted here"},
+		{"time,x,h [inch]\n", "h.csv:1:11: unknown unit 'inch'"},
+		{"time,x,h [m] y\n", "h.csv:1:8: a unit stands in brackets at the end: h [mm]"},
+		{"time,x,h\n0.1,1\n", "h.csv:2:6: this row has 2 of 3 fields"},
+		{"time,x,h\n0.1,1,2,3\n", "h.csv:2:9: this row has more than 3 fields"},
+		{"time,x,h\n0.1,1, 2x\n", "h.csv:2:8: h: '2x' is not a number"},
+		{"time,x,h\n0.1,1,nan\n", "h.csv:2:7: h: 'nan' is not a number"},
+		{"time,x,h\n0.1,,2\n", "h.csv:2:5: x is wanted in every row"},
+		{"time,x,h\n0.1,1,2\n0.1,1,2\n",
+			"h.csv:3:5: x goes from 1 m to 1 m at one time; it must go up"},
+		{"time,x,h\n0.1,1,2\n0.05,1,2\n", "h.csv:3:1: time goes back from 0.1 s to 0.05 s"},
+		{"time,h\n0.1,1\n0.1,2\n", "h.csv:3:1: time 0.1 s stands here twice"},
+		{"time,x,h\n0.1,\"1,2\n",
+			"h.csv:2:5: the quote that opens here is not closed in this line"},
+		{"time,x,h\n0.1,\"1\"1,2\n", "h.csv:2:8: a comma is wanted behind the quote"},
+		{"time,x,h\n0.3,1,2\n0.3,2,2\n", "study.yaml:3:59: table 't': the observations of run "},
+		{"time,h\n0.1,2\n", "study.yaml:3:59: table 't': run "},
+	};
+
+	(void)state;
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+		struct experiment e =
+			read_experiment("base: base.yaml\n"
+							"observations: [{file: h.csv}]\n"
+							"tables: [{name: t, rows: layers, metric: l2-observed, at: 0.1 s}]\n");
+		struct error err = {0};
+		char message[4096];
+
+		write_file("h.csv", cases[i].csv);
+		assert_int_equal(table_check(&e, &err), -1);
+		assert_int_equal(err.code, EX_DATAERR);
+		message[0] = '\0';
+		(void)error_format(&err, message, sizeof message);
+		message[strlen(cases[i].message)] = '\0';
+		assert_string_equal(message, cases[i].message);
+		experiment_clean(&e);
+	}
+}
+
 static void only_chooses_runs_by_value_however_written(void **state)
 {
 	struct experiment e = read_experiment("title: Some\n"
@@ -431,6 +559,9 @@ int main(void)
 		TEST(other_builds_and_machines_are_flagged_where_times_compare),
 		TEST(markdown_and_csv_survive_their_own_marks),
 		TEST(only_chooses_runs_by_value_however_written),
+		TEST(latex_and_json_survive_their_own_marks),
+		TEST(errors_against_observations_are_relative_to_what_moved),
+		TEST(bad_observations_are_refused_with_their_place),
 	};
 
 	return cmocka_run_group_tests(tests, NULL, NULL);
