@@ -1,5 +1,6 @@
 #include "tables/layout.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -231,8 +232,10 @@ static int pair_runs(struct layout *layout, struct error *err)
 		NULL, &layout->wanted->baseline, &layout->wanted->reference};
 	bool needed[PARTNERS] = {false};
 
-	for (size_t i = 0; i < layout->measure_count; i++)
+	for (size_t i = 0; i < layout->measure_count; i++) {
+		assert(layout->measures[i].metric);
 		needed[layout->measures[i].metric->partner] = true;
+	}
 	if (needed[PARTNER_PREVIOUS])
 		find_previous(layout);
 	for (int kind = PARTNER_BASELINE; kind <= PARTNER_REFERENCE; kind++) {
@@ -348,10 +351,12 @@ static int list_measures(struct layout *layout, struct error *err)
 		const char *nearest;
 		const struct metric *metric = metric_find(names->items[i].text, &nearest);
 
-		if (!metric)
-			return layout_fail(layout, &names->items[i], err,
+		if (!metric) {
+			(void)layout_fail(layout, &names->items[i], err,
 				"unknown metric '%s'; the nearest known one is '%s'", names->items[i].text,
 				nearest);
+			return -1;
+		}
 		if (!metric->profile || !at->count)
 			TRY(add_measure(layout, metric, &names->items[i], NULL, err));
 		for (size_t k = 0; metric->profile && k < at->count; k++)

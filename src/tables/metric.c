@@ -17,13 +17,13 @@ size_t metric_count(const struct dataset *data)
 	return count;
 }
 
-int metric_read(struct run_file *file, const char *name, struct dataset *data, struct error *err)
+int metric_read(struct run_file *file, const char *name, struct dataset *out, struct error *err)
 {
-	TRY(run_file_dataset(file, name, data, err));
-	if (data->values && metric_count(data))
+	TRY(run_file_dataset(file, name, out, err));
+	if (out->values && metric_count(out))
 		return 0;
-	free(data->values);
-	data->values = NULL;
+	free(out->values);
+	out->values = NULL;
 	(void)error_set(err, EX_DATAERR, "dataset '%s' is empty", name);
 	return -1;
 }

@@ -60,7 +60,8 @@ static int read_both(struct run_file *file, const char *name, struct dataset *ti
 		return 0;
 	free(times->values);
 	free(values->values);
-	return error_set(err, EX_DATAERR, "series '%s' has no time for each value", name);
+	(void)error_set(err, EX_DATAERR, "series '%s' has no time for each value", name);
+	return -1;
 }
 
 /* When the series first passes `level`, linear between its values; NaN: never. */

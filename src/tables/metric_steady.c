@@ -17,7 +17,8 @@ static int read_row(
 	if (out->rank != 2 || row >= out->extent[0]) {
 		free(out->values);
 		out->values = NULL;
-		return error_set(err, EX_DATAERR, "dataset '%s' is not profile_time by layer", name);
+		(void)error_set(err, EX_DATAERR, "dataset '%s' is not profile_time by layer", name);
+		return -1;
 	}
 	memmove(out->values, out->values + row * out->extent[1], out->extent[1] * sizeof *out->values);
 	return 0;
