@@ -20,7 +20,7 @@ void immersed_units(const struct model_state *s, double *p, double *S)
 }
 
 /* What a layer exchanges with its neighbours (P4 36, 37 or 38, 39): mass flux downwards through the
- * interfaces. */
+ * interfaces, with the mean velocity of both sides, which above the mixture is 0 (P4 3.3). */
 struct transfer {
 	double solid_below, solid_above, fluid_below, fluid_above; /* m/s */
 };

@@ -1,6 +1,7 @@
 /* The scheme of P4 3.4.4: phi and the drag explicit, viscous stresses implicit with frozen coefficients,
  * the pressure from one linearisation about that of the step before. In the fluid equation G_f stands
- * at both interfaces (printed once as G_s), and the factor 1/2 of (31i) is that of eta_s = eta D. */
+ * at both interfaces (printed once as G_s), and the factor 1/2 of (31i) is that of eta_s = eta D. The height
+ * follows from the phi, not from a rate of its own, so that the granular mass is exact. */
 #include <math.h>
 
 #include "immersed/immersed.h"

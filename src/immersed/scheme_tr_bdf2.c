@@ -204,8 +204,10 @@ static int step(struct model_state *s, double dt, struct error *err)
 		factor = fmin(rejected ? 1 : GROWTH, fmax(SHRINKAGE, factor));
 		if (solved && error <= 1) {
 			accept(s, dt);
+			s->record.next = dt * factor;
 			/* a step that the run's end has shortened says nothing against a longer one */
-			s->record.next = rejected ? dt * factor : fmax(dt * factor, fmin(asked, dt * GROWTH));
+			if (!rejected && dt < asked)
+				s->record.next = fmax(s->record.next, fmin(asked, dt * GROWTH));
 			return 0;
 		}
 		rejected = true;
