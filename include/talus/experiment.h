@@ -53,6 +53,7 @@ struct experiment_table {
 	struct setting_list baseline;  /* makes of a run's config that of the run it is timed against */
 	struct setting_list reference; /* makes of a run's config that of the exact one */
 	struct setting_list only;      /* runs without these values are left out */
+	bool dimensionless;            /* lengths by h_0, times by tau_c, velocities by v_0 */
 	const struct node *published;  /* rows of columns of metrics, NULL: none */
 };
 

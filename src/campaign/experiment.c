@@ -103,6 +103,11 @@ static int read_reference(const struct reader *reader, const struct node *node, 
 	return reader_settings(reader, node, &((struct experiment_table *)target)->reference);
 }
 
+static int read_dimensionless(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_bool(reader, node, &((struct experiment_table *)target)->dimensionless);
+}
+
 static int read_only(const struct reader *reader, const struct node *node, void *target)
 {
 	return reader_settings(reader, node, &((struct experiment_table *)target)->only);
@@ -121,6 +126,7 @@ static int read_table(
 		{"reference", read_reference},
 		{"at", read_at},
 		{"only", read_only},
+		{"dimensionless", read_dimensionless},
 	};
 
 	table->title = "";

@@ -302,8 +302,10 @@ static int read_panel(const struct reader *reader, const struct node *plot, cons
 	TRY(reader_keys(reader, plot, plot_keys, sizeof plot_keys / sizeof *plot_keys, form));
 	if (own)
 		TRY(reader_keys(reader, own, panel_keys, sizeof panel_keys / sizeof *panel_keys, form));
-	if (!form->plot->name.text)
-		return reader_fail(reader, plot, "this plot lacks its 'name'");
+	if (!form->plot->name.text) {
+		(void)reader_fail(reader, plot, "this plot lacks its 'name'");
+		return -1;
+	}
 	if (!panel->kind.text)
 		return reader_fail(
 			reader, own ? own : plot, "plot '%s' lacks its 'kind'", form->plot->name.text);
@@ -346,7 +348,7 @@ int experiment_plots_read(
 		experiment->plot_count = i + 1;
 		TRY(read_plot(reader, &node->items[i], plot));
 		for (size_t k = 0; k < i; k++)
-			if (!strcmp(experiment->plots[k].name.text, plot->name.text))
+			if (plot->name.text && !strcmp(experiment->plots[k].name.text, plot->name.text))
 				return reader_fail(
 					reader, &node->items[i], "plot '%s' stands here twice", plot->name.text);
 	}
@@ -358,7 +360,7 @@ static void panel_clean(struct experiment_panel *panel)
 	struct term_list *const lists[] = {&panel->y, &panel->at, &panel->at_x, &panel->layer,
 		&panel->lines, &panel->split, &panel->log, &panel->ranges[0], &panel->ranges[1]};
 
-	for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
+	for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++)
 		free(lists[i]->items);
 	setting_list_clean(&panel->baseline);
 	setting_list_clean(&panel->reference);

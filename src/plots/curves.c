@@ -14,7 +14,8 @@ static const unsigned colours[] = {
 enum { COLOURS = sizeof colours / sizeof *colours, BLACK = 0x000000 };
 
 /* Nine colours of viridis: one after the other for the blind as well. */
-static const unsigned viridis[] = {
+enum { VIRIDIS = 9 };
+static const unsigned viridis[VIRIDIS] = {
 	0x440154, 0x472D7B, 0x3B528B, 0x2C728E, 0x21918C, 0x28AE80, 0x5EC962, 0xADDC30, 0xFDE725};
 
 bool curves_add_dimension(struct curves *curves, const char *name, bool split, bool ordered)
@@ -128,8 +129,8 @@ static void join_parts(const struct curves *curves, const struct curve *curve,
 /* Part `share` of the way along viridis. */
 static unsigned blend(double share)
 {
-	double place = share * (double)(sizeof viridis / sizeof *viridis - 1);
-	size_t i = (size_t)fmin(floor(place), (double)(sizeof viridis / sizeof *viridis - 2));
+	double place = share * (VIRIDIS - 1);
+	size_t i = (size_t)fmin(floor(place), VIRIDIS - 2);
 	unsigned colour = 0;
 
 	for (int shift = 0; shift <= 16; shift += 8) {

@@ -36,6 +36,15 @@ struct figure_line *figure_add_line(struct figure_panel *panel, struct error *er
 	return lines;
 }
 
+bool figure_can_be_drawn(const struct figure_panel *panel, const struct figure_line *line)
+{
+	for (size_t i = 0; i < line->count; i++)
+		if (isfinite(line->x[i]) && isfinite(line->y[i]) && (!panel->x.log || line->x[i] > 0) &&
+			(!panel->y.log || line->y[i] > 0))
+			return true;
+	return false;
+}
+
 static void panel_clean(struct figure_panel *panel)
 {
 	for (size_t i = 0; i < panel->line_count; i++) {

@@ -63,6 +63,9 @@ struct figure {
 struct figure_panel *figure_add_panel(struct figure *figure, struct error *err);
 struct figure_line *figure_add_line(struct figure_panel *panel, struct error *err);
 
+/* Has the line a point that its panel's axes can show? */
+bool figure_can_be_drawn(const struct figure_panel *panel, const struct figure_line *line);
+
 void figure_clean(struct figure *figure);
 
 #endif

@@ -9,8 +9,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char **environ;
-
 /* The script as a file that has no name: a pipe could block, and break. */
 static int write_script(int fd, const struct text *script, struct error *err)
 {
@@ -88,8 +86,8 @@ int gnuplot_run(const char *folder, const struct text *script, struct error *err
 {
 	int input = memfd_create("talus-figure", MFD_CLOEXEC);
 	int output = memfd_create("talus-gnuplot", MFD_CLOEXEC);
-	int status, result = -1;
-	pid_t pid;
+	int status = 0, result = -1;
+	pid_t pid = -1;
 
 	if (input < 0 || output < 0) {
 		error_set(err, EX_SOFTWARE, "no file in memory: %s", strerror(errno));

@@ -119,8 +119,8 @@ int kind_axis(const struct kind_request *request, const struct kind_run *run, in
 	struct meaning all = *meaning;
 
 	*factor = 1;
-	all.dimensionless = wanted->dimensionless && run->config;
 	all.shown = wanted->units[index].text;
+	all.dimensionless = wanted->dimensionless && run->config && !all.shown;
 	if (all.dimensionless)
 		*factor = 1 / meaning_scale(all.name, all.unit, run->config);
 	else if (all.shown)
@@ -155,7 +155,7 @@ static int dataset_axis(const struct kind_request *request, const struct kind_ru
 
 static void multiply(double *values, size_t count, double factor)
 {
-	for (size_t i = 0; i < count; i++)
+	for (size_t i = 0; values && i < count; i++)
 		values[i] *= factor;
 }
 
@@ -243,7 +243,7 @@ struct cut {
 static int add_cut(const struct kind_request *request, const struct kind_run *run,
 	const struct kind *kind, const char *name, const struct cut *cut, struct error *err)
 {
-	struct slice slice;
+	struct slice slice = {0};
 	struct curve *curve;
 	int result = -1;
 

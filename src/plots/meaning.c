@@ -1,13 +1,12 @@
 #include "plots/meaning.h"
 
 #include <ctype.h>
-#include <math.h>
 #include <string.h>
+
+#include "tables/scale.h"
 
 /* One that is not lost between the pieces of an SVG text. */
 #define SPACE "\u00a0"
-
-#define GRAVITY 9.81 /* m/s2, as the models have it */
 
 /* What is well known has a short name and, in gnuplot's marks, a symbol. */
 static const struct known {
@@ -43,16 +42,6 @@ static const struct known {
 	{"cpu-seconds", "CPU time", ""},
 };
 
-/* What takes a unit away, as P1 chooses it. */
-static const struct {
-	const char *unit, *symbol;
-} scales[] = {
-	{"m", "{/:Italic h}_0"},
-	{"s", "{/:Italic τ}_c"},
-	{"m/s", "{/:Italic v}_0"},
-};
-enum { SCALES = sizeof scales / sizeof *scales };
-
 static const struct known *find_known(const char *name)
 {
 	for (size_t i = 0; i < sizeof known / sizeof *known; i++)
@@ -74,27 +63,23 @@ double meaning_settles(const char *name)
 	return strcmp(name, "front_velocity") ? 0 : 0.02;
 }
 
-/* The row of `scales` for a unit; SCALES: none. What the computer took is no time of the flow. */
-static size_t find_scale(const char *name, const char *unit)
+/* NULL: nothing takes the unit away. */
+static const struct scale *find_scale(const char *name, const char *unit)
 {
 	struct text short_unit = {0};
-	size_t i = 0;
+	const struct scale *scale;
 
-	if (!strncmp(name, "cpu", 3) || !strncmp(name, "wall", 4))
-		return SCALES;
 	meaning_unit(unit, &short_unit);
-	while (i < SCALES && strcmp(scales[i].unit, text_string(&short_unit)) != 0)
-		i++;
+	scale = scale_find(name, text_string(&short_unit));
 	text_clean(&short_unit);
-	return i;
+	return scale;
 }
 
 double meaning_scale(const char *name, const char *unit, const struct config *config)
 {
-	double height = config->initial.height, gc = GRAVITY * cos(config->slope);
-	const double values[SCALES + 1] = {height, sqrt(height / gc), sqrt(height * gc), 1};
+	const struct scale *scale = find_scale(name, unit);
 
-	return values[find_scale(name, unit)];
+	return scale ? scale->value(config) : 1;
 }
 
 void meaning_unit(const char *unit, struct text *out)
@@ -137,21 +122,19 @@ static void add_unit(const struct meaning *meaning, struct text *out)
 void meaning_label(const struct meaning *meaning, struct figure_text *out)
 {
 	const struct known *row = find_known(meaning->name);
-	size_t scale = meaning->dimensionless ? find_scale(meaning->name, meaning->unit) : SCALES;
+	const struct scale *scale =
+		meaning->dimensionless ? find_scale(meaning->name, meaning->unit) : NULL;
 	const char *words = meaning->words && *meaning->words ? meaning->words : meaning->name;
 	struct text unit = {0};
 
 	add_unit(meaning, &unit);
 	out->marked = row && is_harmless(text_string(&unit));
-	if (!out->marked && scale < SCALES)
-		text_addf(&out->text, "%s/%s", row ? row->words : words,
-			scale == 0   ? "h0"
-			: scale == 1 ? "τc"
-						 : "v0");
+	if (!out->marked && scale)
+		text_addf(&out->text, "%s/%s", row ? row->words : words, scale->name);
 	else if (!out->marked)
 		text_addf(&out->text, "%s%s", row ? row->words : words, text_string(&unit));
-	else if (scale < SCALES)
-		text_addf(&out->text, "%s" SPACE "%s/%s", row->words, row->symbol, scales[scale].symbol);
+	else if (scale)
+		text_addf(&out->text, "%s" SPACE "%s/%s", row->words, row->symbol, scale->marked);
 	else
 		text_addf(&out->text, "%s%s%s%s", row->words, *row->symbol ? SPACE : "", row->symbol,
 			text_string(&unit));

@@ -16,9 +16,7 @@ struct meaning {
 	bool dimensionless;
 };
 
-/* What a value is divided by when axes are dimensionless (P1 Figure 17): a length by h_0, the height of
- * the column, a time by tau_c = sqrt(h_0/(g cos theta)), a velocity by v_0 = sqrt(g h_0 cos theta). 1
- * for everything else, seconds of computing among it. */
+/* What a value is divided by when axes are dimensionless (tables/scale.h); 1: nothing. */
 double meaning_scale(const char *name, const char *unit, const struct config *config);
 
 /* "thickness h (mm)", "front velocity v/v_0". */

@@ -77,7 +77,7 @@ static int replace_files(
 	struct plots_output *output, const struct file_names *names, size_t count, struct error *err)
 {
 	for (size_t i = 0; i < count; i++) {
-		if (access(names[i].drawn, R_OK) != 0)
+		if (!names[i].drawn || access(names[i].drawn, R_OK) != 0)
 			return error_at(err, EX_IOERR, names[i].path, 0, 0,
 				"was not drawn: the disk may be full (%s)", strerror(errno));
 		if (rename(names[i].drawn, names[i].path) != 0)

@@ -220,9 +220,11 @@ static int draw_figure(const struct run_sources *sources, const struct run_figur
 int plots_draw_runs(
 	const char *const *paths, size_t count, struct plots_output *output, struct error *err)
 {
-	struct run_sources sources = {calloc(count, sizeof *sources.items), count};
-	int result = sources.items ? 0 : error_memory(err, count * sizeof *sources.items);
+	struct run_sources sources = {calloc(count + 1, sizeof *sources.items), count};
+	int result = 0;
 
+	if (!sources.items)
+		return error_memory(err, count * sizeof *sources.items);
 	for (size_t i = 0; !result && i < count; i++)
 		result = open_source(&sources.items[i], paths[i], &output->missing, err);
 	for (size_t i = 0; !result && i < sizeof figures / sizeof *figures; i++)
@@ -231,7 +233,7 @@ int plots_draw_runs(
 		result = draw_found(&sources, false, output, err);
 	if (!result && !any_has(&sources, "front_position"))
 		result = draw_found(&sources, true, output, err);
-	for (size_t i = 0; sources.items && i < count; i++) {
+	for (size_t i = 0; i < count; i++) {
 		run_file_close(sources.items[i].file);
 		free(sources.items[i].name);
 	}

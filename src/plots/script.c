@@ -3,6 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "plots/legend.h"
+#include "plots/script_data.h"
+
 /* Sizes in points: the same in every format. */
 #define FONT "Arial" /* or what fontconfig has instead: Liberation Sans, DejaVu Sans */
 enum {
@@ -20,7 +23,7 @@ enum {
 };
 #define LETTER 5.7
 
-enum { POINTS_MAX = 1200, MAP_ROWS = 160, MAP_COLUMNS = 400, TEXT_MAX = 300 };
+enum { TEXT_MAX = 300 };
 
 struct geometry {
 	int columns, rows;
@@ -64,110 +67,6 @@ static void add_text(struct text *out, const char *command, const struct figure_
 	text_add(out, text->marked ? " enhanced" : " noenhanced");
 }
 
-static void add_number(struct text *out, double value)
-{
-	char buffer[TEXT_REAL_SIZE];
-
-	text_addf(out, " %s", isfinite(value) ? text_real(value, buffer) : "NaN");
-}
-
-static bool can_be_drawn(const struct figure_panel *panel, const struct figure_line *line)
-{
-	for (size_t i = 0; i < line->count; i++)
-		if (isfinite(line->x[i]) && isfinite(line->y[i]) && (!panel->x.log || line->x[i] > 0) &&
-			(!panel->y.log || line->y[i] > 0))
-			return true;
-	return false;
-}
-
-static void add_point(struct text *out, const struct figure_line *line, size_t i)
-{
-	add_number(out, line->x[i]);
-	add_number(out, line->y[i]);
-	add_number(out, line->spread ? line->spread[i] : 0);
-	text_add(out, "\n");
-}
-
-/* First, least, greatest and last of the points `from` to `end`, in their order: so that thousands of
- * steps become a small file that looks the same. */
-static void add_bucket(struct text *out, const struct figure_line *line, size_t from, size_t end)
-{
-	size_t least = from, greatest = from;
-
-	for (size_t i = from; i < end; i++) {
-		if (!(line->y[i] >= line->y[least]))
-			least = i;
-		if (!(line->y[i] <= line->y[greatest]))
-			greatest = i;
-	}
-	for (size_t i = from; i < end; i++)
-		if (i == from || i == least || i == greatest || i == end - 1)
-			add_point(out, line, i);
-}
-
-static void add_line_data(
-	struct text *out, const struct figure_line *line, size_t panel, size_t index)
-{
-	size_t buckets = POINTS_MAX / 4;
-
-	text_addf(out, "$p%zu_%zu << END\n", panel, index);
-	if (line->count <= POINTS_MAX)
-		for (size_t i = 0; i < line->count; i++)
-			add_point(out, line, i);
-	else
-		for (size_t k = 0; k < buckets; k++)
-			add_bucket(out, line, k * line->count / buckets, (k + 1) * line->count / buckets);
-	text_add(out, "END\n");
-}
-
-/* The value of a map at a height between its rows. */
-static double map_value(const struct figure_map *map, double y, size_t column)
-{
-	size_t row = 0;
-	double share;
-
-	while (row + 2 < map->rows && map->y[row + 1] < y)
-		row++;
-	if (map->rows < 2)
-		return map->values[column];
-	share = fmin(1, fmax(0, (y - map->y[row]) / (map->y[row + 1] - map->y[row])));
-	return (1 - share) * map->values[row * map->columns + column] +
-		   share * map->values[(row + 1) * map->columns + column];
-}
-
-/* An image wants even steps: the rows of a map are interpolated in time. */
-static void add_map_data(struct text *out, const struct figure_map *map, size_t panel)
-{
-	size_t step = map->columns / MAP_COLUMNS + 1;
-	double from = map->y[0], to = map->y[map->rows - 1];
-
-	text_addf(out, "$m%zu << END\n", panel);
-	for (int row = 0; row < MAP_ROWS; row++) {
-		double y = from + (to - from) * row / (MAP_ROWS - 1);
-
-		for (size_t column = 0; column < map->columns; column += step) {
-			add_number(out, map->x[column]);
-			add_number(out, y);
-			add_number(out, map_value(map, y, column));
-			text_add(out, "\n");
-		}
-	}
-	text_add(out, "END\n");
-}
-
-static void add_data(struct text *out, const struct figure *figure)
-{
-	for (size_t p = 0; p < figure->panel_count; p++) {
-		const struct figure_panel *panel = &figure->panels[p];
-
-		for (size_t i = 0; i < panel->line_count; i++)
-			if (can_be_drawn(panel, &panel->lines[i]))
-				add_line_data(out, &panel->lines[i], p, i);
-		if (panel->map.rows > 1)
-			add_map_data(out, &panel->map, p);
-	}
-}
-
 /* How a line looks, in `plot` and in the legend alike. */
 static void add_style(struct text *out, const struct figure_line *line)
 {
@@ -201,65 +100,7 @@ static bool has_spread(const struct figure_line *line)
 	return false;
 }
 
-/* Lines in the legend: those with a title, each look and title once. */
-static bool same_entry(const struct figure_line *a, const struct figure_line *b)
-{
-	return !strcmp(a->title, b->title) && a->colour == b->colour && a->dash == b->dash &&
-		   a->mark == b->mark && a->hollow == b->hollow;
-}
-
-static bool same_look(const struct figure_line *a, const struct figure_line *b)
-{
-	return a->colour == b->colour && a->dash == b->dash && a->mark == b->mark &&
-		   a->hollow == b->hollow;
-}
-
-/* The entries of the legend of one panel, or of all of them. */
-struct entries {
-	const struct figure_line *items[128]; /* [count] */
-	size_t count;
-	size_t longest; /* letters of the longest title */
-};
-
-static size_t letters(const char *string)
-{
-	size_t count = 0;
-
-	for (; *string; string++)
-		count += ((unsigned char)*string & 0xC0) != 0x80;
-	return count;
-}
-
-static void add_entry(struct entries *entries, const struct figure_line *line)
-{
-	for (size_t i = 0; i < entries->count; i++)
-		if (same_entry(entries->items[i], line))
-			return;
-	if (entries->count == sizeof entries->items / sizeof *entries->items)
-		return;
-	entries->items[entries->count++] = line;
-	if (letters(line->title) > entries->longest)
-		entries->longest = letters(line->title);
-}
-
-static void collect(const struct figure_panel *panel, struct entries *entries)
-{
-	for (size_t i = 0; i < panel->line_count; i++)
-		if (panel->lines[i].title && can_be_drawn(panel, &panel->lines[i]))
-			add_entry(entries, &panel->lines[i]);
-}
-
-/* One look that means two things in two panels: then every panel has a legend of its own. */
-static bool is_ambiguous(const struct entries *entries)
-{
-	for (size_t i = 0; i < entries->count; i++)
-		for (size_t k = 0; k < i; k++)
-			if (same_look(entries->items[i], entries->items[k]))
-				return true;
-	return false;
-}
-
-static void fit_legend(struct geometry *g, const struct entries *entries, double width)
+static void fit_legend(struct geometry *g, const struct legend *entries, double width)
 {
 	double entry = SAMPLE + LETTER * (double)entries->longest;
 	int columns = entry < width ? (int)(width / entry) : 1, rows;
@@ -287,7 +128,7 @@ static int columns_of(const struct figure *figure)
 static struct geometry lay_out(const struct figure *figure)
 {
 	struct geometry g = {.columns = columns_of(figure)};
-	struct entries all = {.count = 0};
+	struct legend all = {.count = 0};
 	int pitch;
 
 	g.rows = ((int)figure->panel_count + g.columns - 1) / g.columns;
@@ -298,15 +139,15 @@ static struct geometry lay_out(const struct figure *figure)
 			g.title = TITLE;
 		if (figure->panels[p].map.rows)
 			g.box = COLOUR_BOX;
-		collect(&figure->panels[p], &all);
+		legend_collect(&figure->panels[p], &all);
 	}
 	pitch = LEFT + g.width + g.box + RIGHT;
 	g.total[0] = EDGE + g.columns * pitch + EDGE;
-	g.legends = is_ambiguous(&all);
+	g.legends = legend_is_ambiguous(&all);
 	for (size_t p = 0; g.legends && p < figure->panel_count; p++) {
-		struct entries own = {.count = 0};
+		struct legend own = {.count = 0};
 
-		collect(&figure->panels[p], &own);
+		legend_collect(&figure->panels[p], &own);
 		fit_legend(&g, &own, pitch - 10);
 	}
 	if (!g.legends)
@@ -331,7 +172,7 @@ static void add_margins(struct text *out, const struct geometry *g, double left,
 }
 
 /* A legend in an empty panel of its own between these heights. */
-static void add_legend(struct text *out, const struct geometry *g, const struct entries *entries,
+static void add_legend(struct text *out, const struct geometry *g, const struct legend *entries,
 	const double sides[4], int columns)
 {
 	if (!entries->count)
@@ -360,15 +201,56 @@ static void add_range(
 {
 	text_addf(out, "set %srange [", axis);
 	if (!isnan(range->from))
-		add_number(out, range->from);
+		script_data_add_number(out, range->from);
 	text_add(out, isnan(range->from) ? "*:" : ":");
 	if (!isnan(range->to))
-		add_number(out, range->to);
+		script_data_add_number(out, range->to);
 	text_addf(out, "%s]%s\n", isnan(range->to) ? "*" : "", tight ? " noextend" : "");
 	text_addf(out,
 		range->log ? "set logscale %s; set format %s '10^{%%T}'; set m%stics 10\n"
 				   : "unset logscale %s; set format %s '%%h'; unset m%stics\n",
 		axis, axis, axis);
+}
+
+/* The numbers along an axis reach from `low` to `high`; false where there are none. */
+static bool find_extent(const struct figure_panel *panel, bool along_x, double *low, double *high)
+{
+	const struct figure_axis *axis = along_x ? &panel->x : &panel->y;
+	const double *ends = along_x ? panel->map.x : panel->map.y;
+	size_t last = along_x ? panel->map.columns : panel->map.rows;
+
+	*low = last ? ends[0] : INFINITY;
+	*high = last ? ends[last - 1] : -INFINITY;
+	for (size_t i = 0; i < panel->line_count; i++)
+		for (size_t k = 0; k < panel->lines[i].count; k++) {
+			double value = along_x ? panel->lines[i].x[k] : panel->lines[i].y[k];
+
+			*low = fmin(*low, value); /* passes over NaN */
+			*high = fmax(*high, value);
+		}
+	*low = isnan(axis->from) ? *low : axis->from;
+	*high = isnan(axis->to) ? *high : axis->to;
+	return *high > *low && isfinite(*low) && isfinite(*high);
+}
+
+/* Tics so far apart that what stands at them has room: 1, 2 or 5 times a power of ten. */
+static void add_tics(
+	struct text *out, const char *axis, const struct figure_panel *panel, int length, int room)
+{
+	bool along_x = *axis == 'x';
+	double low, high, step, power;
+
+	if ((along_x ? panel->x.log : panel->y.log) || !find_extent(panel, along_x, &low, &high)) {
+		text_addf(out, "set %stics autofreq\n", axis);
+		return;
+	}
+	step = (high - low) * room / length;
+	power = pow(10, floor(log10(step)));
+	step /= power;
+	step = (step <= 1 ? 1 : step <= 2 ? 2 : step <= 5 ? 5 : 10) * power;
+	text_addf(out, "set %stics", axis);
+	script_data_add_number(out, step);
+	text_add(out, "\n");
 }
 
 static bool all_lines(const struct figure_panel *panel)
@@ -379,7 +261,7 @@ static bool all_lines(const struct figure_panel *panel)
 	return true;
 }
 
-static void add_axes(struct text *out, const struct figure_panel *panel)
+static void add_axes(struct text *out, const struct geometry *g, const struct figure_panel *panel)
 {
 	text_add(out,
 		"set border 3 lw 0.8 lc rgb '#333333'\n"
@@ -398,7 +280,9 @@ static void add_axes(struct text *out, const struct figure_panel *panel)
 	add_text(out, "set ylabel", &panel->y.label);
 	text_add(out, " offset -0.2,0\n");
 	add_range(out, "x", &panel->x, all_lines(panel));
+	add_tics(out, "x", panel, g->width, 44);
 	add_range(out, "y", &panel->y, false);
+	add_tics(out, "y", panel, g->height, 22);
 }
 
 static void add_lines(struct text *out, const struct figure_panel *panel, size_t p, bool *any)
@@ -406,7 +290,7 @@ static void add_lines(struct text *out, const struct figure_panel *panel, size_t
 	for (size_t i = 0; i < panel->line_count; i++) {
 		const struct figure_line *line = &panel->lines[i];
 
-		if (!can_be_drawn(panel, line))
+		if (!figure_can_be_drawn(panel, line))
 			continue;
 		text_addf(
 			out, "%s $p%zu_%zu using 1:2 with %s", *any ? "," : "plot", p, i, mark_name(line));
@@ -445,7 +329,7 @@ static void add_panel(
 	bool any = false;
 
 	add_margins(out, g, left, left + g->width, top - g->height, top);
-	add_axes(out, panel);
+	add_axes(out, g, panel);
 	add_map(out, panel, p, &any);
 	add_lines(out, panel, p, &any);
 	if (!any) /* an empty panel says so, and the figure stays whole */
@@ -455,10 +339,10 @@ static void add_panel(
 			"plot NaN notitle");
 	text_add(out, "\n");
 	if (legend) {
-		struct entries own = {.count = 0};
+		struct legend own = {.count = 0};
 		double bottom = top - g->height - BOTTOM;
 
-		collect(panel, &own);
+		legend_collect(panel, &own);
 		add_legend(out, g, &own,
 			(double[4]){left - LEFT, left + g->width + RIGHT, bottom - legend, bottom},
 			g->entry_columns);
@@ -467,7 +351,7 @@ static void add_panel(
 
 static void add_body(struct text *out, const struct figure *figure, const struct geometry *g)
 {
-	struct entries all = {.count = 0};
+	struct legend all = {.count = 0};
 
 	text_add(out, "reset\nset encoding utf8\nset multiplot");
 	if (figure->title.length) {
@@ -479,7 +363,7 @@ static void add_body(struct text *out, const struct figure *figure, const struct
 	for (size_t p = 0; p < figure->panel_count; p++)
 		add_panel(out, figure, g, p);
 	for (size_t p = 0; p < figure->panel_count; p++)
-		collect(&figure->panels[p], &all);
+		legend_collect(&figure->panels[p], &all);
 	if (!g->legends && g->entry_rows)
 		add_legend(out, g, &all,
 			(double[4]){EDGE, g->total[0] - EDGE, EDGE, EDGE + ENTRY * g->entry_rows},
@@ -513,7 +397,7 @@ void script_write(const struct figure *figure, const struct script_output *outpu
 {
 	struct geometry g = lay_out(figure);
 
-	add_data(out, figure);
+	script_data_add(out, figure);
 	for (size_t i = 0; i < count; i++) {
 		add_terminal(out, &g, &outputs[i]);
 		add_body(out, figure, &g);

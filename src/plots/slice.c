@@ -46,9 +46,10 @@ int slice_axis(
 
 	*values = NULL;
 	TRY(run_file_dataset(file, axis, &data, err));
-	if (data.rank != 1 || !data.extent[0]) {
+	if (!data.values || data.rank != 1 || !data.extent[0]) {
 		free(data.values);
-		return error_set(err, EX_DATAERR, "axis '%s' is empty or no axis", axis);
+		(void)error_set(err, EX_DATAERR, "axis '%s' is empty or no axis", axis);
+		return -1;
 	}
 	*values = data.values;
 	*count = data.extent[0];
@@ -63,7 +64,7 @@ bool slice_same_time(double stored, double asked)
 static int find_nearest(struct run_file *file, const char *axis, double wanted, size_t *index,
 	double *found, struct error *err)
 {
-	double *values;
+	double *values = NULL;
 	size_t count = 0;
 
 	TRY(slice_axis(file, axis, &values, &count, err));
@@ -139,7 +140,7 @@ static int find_index(struct run_file *file, const char *name, int i, size_t cou
 static int cut(struct run_file *file, const char *name, const struct slice_place *place,
 	const struct dataset *data, struct slice *out, struct error *err)
 {
-	size_t start = 0, step = 0, stride = 1, index;
+	size_t start = 0, step = 0, stride = 1, index = 0;
 
 	out->count = 1;
 	for (int i = data->rank; i-- > 0; stride *= data->extent[i]) {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "tables/measured.h"
+#include "tables/scale.h"
 #include "talus/tables.h"
 
 struct builder {
@@ -65,6 +66,19 @@ static const char *last_part(const char *key)
 	return dot ? dot + 1 : key;
 }
 
+/* "runout m", or "runout /h0" in a table without dimensions. */
+static int add_metric_head(const struct builder *builder, const struct metric *metric,
+	struct table_column *out, struct error *err)
+{
+	const struct scale *scale =
+		builder->layout->wanted->dimensionless ? scale_find(metric->name, metric->unit) : NULL;
+	char unit[32];
+
+	(void)snprintf(unit, sizeof unit, "%s%s", scale ? "/" : "", scale ? scale->name : metric->unit);
+	return *unit ? add_head(out, metric->header, unit, err)
+				 : add_head(out, "", metric->header, err);
+}
+
 /* The heads of a column of numbers: its key values, the metric, the profile time, who says so. */
 static int add_number_column(
 	const struct builder *builder, size_t column, size_t m, const char *source, struct error *err)
@@ -77,8 +91,7 @@ static int add_number_column(
 	for (size_t k = 0; k < layout->columns.keys; k++)
 		TRY(add_head(out, last_part(layout->wanted->columns.items[k].text),
 			layout->columns.items[column].parts[k], err));
-	TRY(*measure->metric->unit ? add_head(out, measure->metric->header, measure->metric->unit, err)
-							   : add_head(out, "", measure->metric->header, err));
+	TRY(add_metric_head(builder, measure->metric, out, err));
 	if (measure->at_text)
 		TRY(add_head(out, "at", measure->at_text, err));
 	return *source ? add_head(out, "", source, err) : 0;

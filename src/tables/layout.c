@@ -1,6 +1,5 @@
 #include "tables/layout.h"
 
-#include <assert.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -233,8 +232,10 @@ static int pair_runs(struct layout *layout, struct error *err)
 	bool needed[PARTNERS] = {false};
 
 	for (size_t i = 0; i < layout->measure_count; i++) {
-		assert(layout->measures[i].metric);
-		needed[layout->measures[i].metric->partner] = true;
+		const struct metric *metric = layout->measures[i].metric;
+
+		if (metric)
+			needed[metric->partner] = true;
 	}
 	if (needed[PARTNER_PREVIOUS])
 		find_previous(layout);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "tables/scale.h"
 #include "talus/run.h"
 
 static void tell(struct text *missing, const char *what, const struct experiment_run *run,
@@ -85,6 +86,8 @@ static void measure(struct measured *measured, size_t index, struct run_file *fi
 	} else if (!isfinite(*value)) {
 		*value = NAN;
 		tell_missing(measured, run, metric->name, "is not a number");
+	} else if (measured->layout->wanted->dimensionless && scale_find(metric->name, metric->unit)) {
+		*value /= scale_find(metric->name, metric->unit)->value(&run->config);
 	}
 }
 

@@ -190,11 +190,11 @@ done:
 	return result;
 }
 
-/* The greatest velocity of the front and when; before SETTLED its window is not full, and says nothing. */
+/* The greatest velocity of the front and when. At the release it jumps to the next cell, which is no flow. */
 static int front_peak(
 	const struct sample *sample, double *velocity, double *when, struct error *err)
 {
-	const double settled = 0.02; /* s, the window of the series */
+	const double settled = 0.04; /* s: the window of 0.02 s has left the release behind */
 	struct dataset time = {0}, front = {0};
 	int result = -1;
 

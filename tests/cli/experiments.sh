@@ -7,7 +7,8 @@ for experiment in experiments/*.yaml; do
 	[[ $experiment == */p4-cost.yaml ]] && set=(--set 'time.end=0.1 s')
 	talus campaign run "${set[@]}" "$experiment" >out 2>err || cat out err
 	if grep -q '^tables:' "$experiment"; then
-		talus-tables "${set[@]}" "$experiment" >out || echo "exit $?"
+		# flows on so coarse a grid need not come to rest
+		talus-tables "${set[@]}" "$experiment" >out 2>err || grep -v 'still flows' err
 		grep -A 3 ": " out | sed -n 1p
 	fi
 	if grep -q '^plots:' "$experiment"; then
