@@ -41,7 +41,7 @@ SELECTED = $(if $(TESTS),$(sort $(foreach word,$(TESTS),$(foreach test,$1,$(if $
 
 .DEFAULT_GOAL := all
 .PHONY: all lib programs deps quickstart check test asan ubsan valgrind coverage clang tidy format \
-	format-check symbols bench soak tables figures install clean distclean help $(EXPERIMENTS)
+	format-check symbols bench soak tables figures paper install clean distclean help $(EXPERIMENTS)
 .SECONDARY:
 .DELETE_ON_ERROR:
 
@@ -117,6 +117,17 @@ tables figures:
 	$(Q)for name in $(patsubst experiments/%.yaml,%,$(shell \
 		grep -ls '^$(if $(filter figures,$@),plots,tables):' experiments/*.yaml)); do \
 		$(MAKE) $(SUB) $$name || exit; done
+
+# What results/paper/ holds; its README.md walks through it.
+PAPER := $(filter p1-% p4-%,$(EXPERIMENTS))
+
+## paper: make the tables and figures in results/paper/ again (PAPER=names of experiments)
+paper: all
+	$(Q)for name in $(PAPER); do \
+		file=experiments/$$name.yaml; \
+		$(BIN)/talus campaign run $$file $(CAMPAIGN_FLAGS) || exit; \
+		! grep -q '^tables:' $$file || $(BIN)/talus-tables -f markdown $$file >results/paper/$$name.md || exit; \
+		! grep -q '^plots:' $$file || $(BIN)/talus plot -f png -o results/paper $$file || exit; done
 
 ## check: install what is missing, build and run every test (TESTS=word: those with the word in the path)
 check:

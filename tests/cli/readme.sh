@@ -23,6 +23,9 @@ grep -c . run.sh
 bash run.sh >run.out 2>run.err
 echo "exit $?"
 tail -n 1 run.out
+commands 'Figures' >figures.sh
+grep -c . figures.sh
+bash figures.sh 2>&1 | grep figures/
 commands 'Grains in a fluid' >fluid.sh
 grep -c . fluid.sh
 bash fluid.sh >fluid.out 2>&1
