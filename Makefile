@@ -122,7 +122,9 @@ tables figures:
 PAPER := $(filter p1-% p4-%,$(EXPERIMENTS))
 
 ## paper: make the tables and figures in results/paper/ again (PAPER=names of experiments)
-paper: all
+paper:
+	@scripts/deps build plot
+	$(Q)$(MAKE) $(SUB) all
 	$(Q)for name in $(PAPER); do \
 		file=experiments/$$name.yaml; \
 		$(BIN)/talus campaign run $$file $(CAMPAIGN_FLAGS) || exit; \

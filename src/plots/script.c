@@ -21,7 +21,7 @@ enum {
 	ENTRY = 17, /* of the legend: its height, the width of its sample, and of a letter */
 	SAMPLE = 44,
 };
-#define LETTER 5.7
+#define LETTER 6.2
 
 enum { TEXT_MAX = 300 };
 
@@ -30,9 +30,9 @@ struct geometry {
 	int width, height; /* of the area within a panel's axes */
 	int title;         /* TITLE if some panel has one */
 	int box;           /* COLOUR_BOX if some panel is a map */
-	int entry_columns, entry_rows;
-	bool legends;    /* one for each panel instead of one for all */
-	double total[2]; /* of the figure */
+	int entry_rows;    /* of the legend */
+	bool legends;      /* one for each panel instead of one for all */
+	double total[2];   /* of the figure */
 };
 
 /* Within single quotes nothing means anything to gnuplot but the quote itself, so an apostrophe is
@@ -68,18 +68,29 @@ static void add_text(struct text *out, const char *command, const struct figure_
 }
 
 /* How a line looks, in `plot` and in the legend alike. */
-static void add_style(struct text *out, const struct figure_line *line)
+static void add_dashes(struct text *out, const struct figure_line *line)
 {
 	static const char *const dashes[] = {"solid", "(9,4)", "(2,3)", "(9,3,2,3)", "(16,4)", "(5,2)"};
-	static const int full[] = {7, 5, 9, 13, 11, 15}, hollow[] = {6, 4, 8, 12, 10, 14};
-	enum { DASHES = sizeof dashes / sizeof *dashes };
-	int shape = line->dash % DASHES;
+	int shape = line->dash % (int)(sizeof dashes / sizeof *dashes);
 
+	text_addf(out, " dt %s lw %s", dashes[shape], shape ? "1.7" : "1.5");
+}
+
+static void add_points(struct text *out, const struct figure_line *line)
+{
+	static const int full[] = {7, 5, 9, 13, 11, 15}, hollow[] = {6, 4, 8, 12, 10, 14};
+	int shape = line->dash % (int)(sizeof full / sizeof *full);
+
+	text_addf(out, " pt %d ps %s", line->hollow ? hollow[shape] : full[shape],
+		line->hollow ? "0.8" : "0.55");
+}
+
+static void add_style(struct text *out, const struct figure_line *line)
+{
 	if (line->mark != FIGURE_POINTS)
-		text_addf(out, " dt %s lw %s", dashes[shape], shape ? "1.7" : "1.5");
+		add_dashes(out, line);
 	if (line->mark != FIGURE_LINE)
-		text_addf(out, " pt %d ps %s", line->hollow ? hollow[shape] : full[shape],
-			line->hollow ? "0.8" : "0.55");
+		add_points(out, line);
 	if (line->mark == FIGURE_POINTS)
 		text_add(out, " lw 1.2");
 	text_addf(out, " lc rgb '#%06X'", line->colour);
@@ -110,10 +121,8 @@ static void fit_legend(struct geometry *g, const struct legend *entries, double 
 	if (columns < 1)
 		columns = 1;
 	rows = ((int)entries->count + columns - 1) / columns;
-	if (rows > g->entry_rows) {
+	if (rows > g->entry_rows)
 		g->entry_rows = rows;
-		g->entry_columns = columns;
-	}
 }
 
 static int columns_of(const struct figure *figure)
@@ -172,27 +181,41 @@ static void add_margins(struct text *out, const struct geometry *g, double left,
 }
 
 /* A legend in an empty panel of its own between these heights. */
-static void add_legend(struct text *out, const struct geometry *g, const struct legend *entries,
-	const double sides[4], int columns)
+static void add_legend(
+	struct text *out, const struct geometry *g, const struct legend *legend, const double sides[4])
 {
-	if (!entries->count)
+	int rows = g->entry_rows, columns = ((int)legend->count + rows - 1) / rows;
+	double width = SAMPLE + LETTER * (double)legend->longest;
+	double start = (sides[1] - sides[0] - columns * width) / 2;
+
+	if (!legend->count)
 		return;
 	add_margins(out, g, sides[0], sides[1], sides[2], sides[3]);
 	text_addf(out,
-		"set key inside center center horizontal Left reverse noenhanced samplen 2.6 spacing 1.1 "
-		"width 1 maxcols %d nobox\n"
-		"unset border; unset xtics; unset ytics; unset grid; unset title; unset xlabel; unset "
-		"ylabel; unset label\n"
-		"unset logscale; set xrange [0:1]; set yrange [0:1]\n"
-		"plot 2 notitle", /* out of sight: entries alone are no plot */
-		columns);
-	for (size_t i = 0; i < entries->count; i++) {
-		text_addf(out, ", keyentry with %s", mark_name(entries->items[i]));
-		add_style(out, entries->items[i]);
-		text_add(out, " title ");
-		add_quoted(out, entries->items[i]->title);
+		"unset key; unset border; unset xtics; unset ytics; unset grid; unset title; unset xlabel; "
+		"unset ylabel; unset label\n"
+		"unset logscale; set xrange [0:%.3f]; set yrange [0:%.3f]\n",
+		sides[1] - sides[0], sides[3] - sides[2]);
+	for (int i = 0; i < (int)legend->count; i++) {
+		const struct figure_line *line = legend->items[i];
+		int column = i / rows, row = i % rows;
+		double x = start + column * width, y = sides[3] - sides[2] - ENTRY * (row + 0.5);
+
+		if (line->mark != FIGURE_POINTS) {
+			text_addf(out, "set arrow from %.3f,%.3f to %.3f,%.3f nohead", x, y, x + 26, y);
+			add_dashes(out, line);
+			text_addf(out, " lc rgb '#%06X'\n", line->colour);
+		}
+		if (line->mark != FIGURE_LINE) {
+			text_addf(out, "set label '' at %.3f,%.3f point", x + 13, y);
+			add_points(out, line);
+			text_addf(out, " lw 1.2 lc rgb '#%06X'\n", line->colour);
+		}
+		text_add(out, "set label ");
+		add_quoted(out, line->title);
+		text_addf(out, " at %.3f,%.3f left noenhanced\n", x + 32, y);
 	}
-	text_add(out, "\n");
+	text_add(out, "plot -1 notitle\nunset arrow; unset label\n");
 }
 
 /* `tight`: the axis ends where the data do. */
@@ -344,8 +367,7 @@ static void add_panel(
 
 		legend_collect(panel, &own);
 		add_legend(out, g, &own,
-			(double[4]){left - LEFT, left + g->width + RIGHT, bottom - legend, bottom},
-			g->entry_columns);
+			(double[4]){left - LEFT, left + g->width + RIGHT, bottom - legend, bottom});
 	}
 }
 
@@ -366,8 +388,7 @@ static void add_body(struct text *out, const struct figure *figure, const struct
 		legend_collect(&figure->panels[p], &all);
 	if (!g->legends && g->entry_rows)
 		add_legend(out, g, &all,
-			(double[4]){EDGE, g->total[0] - EDGE, EDGE, EDGE + ENTRY * g->entry_rows},
-			g->entry_columns);
+			(double[4]){EDGE, g->total[0] - EDGE, EDGE, EDGE + ENTRY * g->entry_rows});
 	text_add(out, "unset multiplot\nunset output\n");
 }
 

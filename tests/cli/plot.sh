@@ -24,6 +24,13 @@ plots:
     dimensionless: true
     log: [x, y]
     published: [{line: hydrostatic, points: [[2, 1], [4, 1.5]]}]
+  - name: times
+    kind: metric
+    x: at
+    y: l2-difference
+    at: [0.1 s, 0.2 s]
+    reference: {layers: 4, pressure: non-hydrostatic}
+    lines: [layers, pressure]
   - name: split
     kind: profile
     y: [h, static_height]
@@ -57,6 +64,7 @@ for text in tree.parse(sys.argv[1]).iter('{http://www.w3.org/2000/svg}text'):
 END
 }
 svg results/study/figures/over.svg | grep -E '[a-z]' | sort -u
+svg results/study/figures/times.svg | grep -E '[a-z]' | sort -u
 svg results/study/figures/split.svg | grep -E '[a-z]' | sort -u
 talus plot --format png,svg -o drawn -p over study.yaml
 talus plot -f pdf results/study/layers-4_pressure-hydrostatic-* -o one
