@@ -50,6 +50,16 @@ static bool watches_steps(const struct model *model)
 	return false;
 }
 
+static int grow(double **values, size_t count, struct error *err)
+{
+	double *larger = realloc(*values, (count + 1) * sizeof *larger);
+
+	if (!larger)
+		return error_memory(err, count * sizeof *larger);
+	*values = larger;
+	return 0;
+}
+
 int recorder_create(const struct model *model, const struct config *config, const struct axes *axes,
 	struct recorder **out, struct error *err)
 {
@@ -77,8 +87,7 @@ int recorder_create(const struct model *model, const struct config *config, cons
 
 		field->size = profile_size(r, &model->profiles[p]);
 		most = field->size > most ? field->size : most;
-		field->before = malloc((field->size + 1) * sizeof *field->before);
-		if (!field->before)
+		if (grow(&field->before, field->size, err))
 			goto failed;
 	}
 	r->after = malloc((most + 1) * sizeof *r->after);
@@ -108,16 +117,6 @@ void recorder_free(struct recorder *r)
 	free(r->profile_times);
 	free(r->after);
 	free(r);
-}
-
-static int grow(double **values, size_t count, struct error *err)
-{
-	double *larger = realloc(*values, (count + 1) * sizeof *larger);
-
-	if (!larger)
-		return error_memory(err, count * sizeof *larger);
-	*values = larger;
-	return 0;
 }
 
 int recorder_reserve_rows(struct recorder *r, size_t rows, struct error *err)

@@ -4,7 +4,7 @@
 /* A sheared state in which nothing is zero and the laws are away from their kinks. */
 static void disturb(struct model_state *s)
 {
-	double h = s->depth;
+	double h;
 
 	for (int a = 0; a < s->layers; a++) {
 		s->now.phi[a] += 0.003 * sin(3 * a + 1);
