@@ -3,7 +3,7 @@
  *   mu(I) F + (2 mu_w/W) int_0^z F = tan(theta) F.
  * Without side walls I is constant, and the rest is in closed form. With them I falls with depth, and
  * where it would become negative the grains do not move: an initial value problem, which GSL solves. At
- * the surface it is singular, so that F begins with a small value instead of 0. */
+ * the surface it is singular, so that F begins with a small value instead of 0. The bottom is without slip. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <math.h>

@@ -1,6 +1,7 @@
 # The immersed model from config to file: what is refused, what is recorded, killed in the middle of an
 # adaptive run and resumed to the same bits, and a step that fails with the state before it saved.
 config=$TALUS_ROOT/configs/immersed-low-viscosity.yaml
+talus check --quiet "$config" "$TALUS_ROOT/configs/immersed-high-viscosity.yaml"
 talus check --set n_ini_guess=2 "$config"
 talus check --set layer_fractions=[0.5,0.4] --set layers=2 "$config"
 talus check --set layer_fractions=[0.5,0.5] "$config"
