@@ -8,11 +8,11 @@
 #include "talus/error.h"
 #include "talus/text.h"
 
-enum model_kind { MODEL_DRY };
+enum model_kind { MODEL_DRY, MODEL_IMMERSED };
 enum pressure_kind { PRESSURE_HYDROSTATIC, PRESSURE_NON_HYDROSTATIC };
 enum boundary_kind { BOUNDARY_WALL, BOUNDARY_OUTFLOW };
 enum shape_kind { SHAPE_COLUMN, SHAPE_HEAP };
-enum law_kind { LAW_MU_I };
+enum law_kind { LAW_MU_I, LAW_LINEAR };
 enum wave_speed_kind { WAVE_SPEED_FASTEST, WAVE_SPEED_MEAN };
 enum reconstruction_kind { RECONSTRUCTION_STATIC, RECONSTRUCTION_PRINTED };
 enum method_kind {
@@ -28,6 +28,11 @@ enum operator_kind { OPERATOR_SYMMETRIC, OPERATOR_POINTWISE };
 enum start_kind { START_ZERO, START_PREVIOUS };
 enum criterion_kind { CRITERION_RESIDUAL, CRITERION_INCREMENT };
 enum norm_kind { NORM_L1, NORM_L2, NORM_LINF };
+enum preserved_kind { PRESERVED_GRANULAR_MASS, PRESERVED_HEIGHT };
+enum bottom_kind { BOTTOM_NO_SLIP, BOTTOM_FRICTION };
+enum interface_kind { INTERFACE_BACKWARD, INTERFACE_MEAN };
+enum switch_kind { SWITCH_ON, SWITCH_OFF };
+enum time_scheme_kind { TIME_SCHEME_TR_BDF2, TIME_SCHEME_SEMI_IMPLICIT };
 
 /* A short list of numbers, kept inside the config so that a config is a plain value. */
 struct real_list {
@@ -35,24 +40,30 @@ struct real_list {
 	double values[512];
 };
 
+/* Keys that the model does not have hold their defaults. */
 struct config {
 	int model;                     /* enum model_kind */
 	int pressure;                  /* enum pressure_kind */
 	double slope;                  /* angle of the reference plane, positive downhill in +x, rad */
 	double erodible_bed_thickness; /* h_i, m */
-	int layers;                    /* N, equal fractions */
-	int n_ini_guess;               /* layers of the coarse system behind the first guess; 0: none */
+	int layers;                    /* N */
+	struct real_list layer_fractions; /* l_a from the bed up, sums to 1; empty: equal */
+	int n_ini_guess; /* layers of the coarse system behind the first guess; 0: none */
+	int preserves;   /* enum preserved_kind: what the mixture keeps (PGM or PH of P4) */
+	int bottom;      /* enum bottom_kind: lambda of P4 (21) */
+	int drag;        /* enum switch_kind: beta (u - v) in the momentum equations */
 	struct {
 		double x_min, x_max; /* m */
 		int cells;
 		int left, right; /* enum boundary_kind */
 	} domain;
 	struct {
-		int shape;     /* enum shape_kind */
-		double height; /* of the column, or of the top of the heap, above the bed layer, m */
-		double front;  /* position of the gate, m */
-		double centre; /* of the heap, m */
-		double width;  /* of the heap: where its height has fallen to 1/e, m */
+		int shape;             /* enum shape_kind */
+		double height;         /* of the column, the top of the heap, or the mixture, m */
+		double front;          /* position of the gate, m */
+		double centre;         /* of the heap, m */
+		double width;          /* of the heap: where its height has fallen to 1/e, m */
+		double solid_fraction; /* phi_0, 1 */
 	} initial;
 	struct {
 		double diameter;       /* d_s, m */
@@ -60,17 +71,33 @@ struct config {
 		double solid_fraction; /* phi_s, 1 */
 	} grains;
 	struct {
-		int law;                /* enum law_kind */
-		double mu_s, mu_2, i_0; /* 1 */
+		double density;   /* rho_f, kg/m3 */
+		double viscosity; /* eta_f, Pa s */
+	} fluid;
+	struct {
+		int law;                     /* enum law_kind */
+		double mu_s, mu_2, i_0, k_1; /* 1 */
 	} rheology;
+	struct {
+		double k, k_2;            /* K and K_2 of P4 (10), 1 */
+		double critical_fraction; /* phi_c^stat, 1 */
+		int interface_fraction;   /* enum interface_kind: reading of phi in the stress */
+	} dilatancy;
+	struct {
+		double mu_w;  /* friction with the side walls, 1; 0: none */
+		double width; /* of the channel, W, m */
+	} walls;
 	struct {
 		double strain_rate; /* delta in the viscosity, 1/s */
 		double velocity;    /* delta in the bottom friction, m/s */
 	} regularisation;
 	struct {
-		double end;     /* s */
-		double cfl;     /* 1 */
-		int wave_speed; /* enum wave_speed_kind */
+		double end;       /* s */
+		double cfl;       /* 1 */
+		int wave_speed;   /* enum wave_speed_kind */
+		int scheme;       /* enum time_scheme_kind */
+		double tolerance; /* of the error of a step, relative */
+		double step;      /* of the schemes with a fixed one, s */
 	} time;
 	struct {
 		int friction_reconstruction; /* enum reconstruction_kind: where dC of P1 (21) balances */
@@ -91,6 +118,7 @@ struct config {
 		double series_every;          /* s; 0: every step */
 		double front_threshold;       /* h - h_i at the front, m */
 		double static_speed;          /* a layer slower than this is at rest, m/s */
+		double steady_surface;        /* int phi where the exact steady flow with walls begins, m */
 	} output;
 	struct {
 		double every;    /* wall clock, s; 0: off */
@@ -121,8 +149,12 @@ int config_from_node(struct config *config, const struct node *root, const char 
 /* The config as YAML in SI units with every key; config_parse reads it back to the same bits. */
 void config_print(const struct config *config, struct text *out);
 
-/* The annotated reference config: every key with default, unit, range or choices and meaning. */
-void config_print_reference(struct text *out);
+/* The annotated reference config of a model: every key with default, unit, range or choices and
+ * meaning. EX_USAGE: no model is called so. */
+int config_print_reference(const char *model, struct text *out, struct error *err);
+
+/* A line for each of the keys that tell at once what is simulated: "  layers    10". */
+void config_print_leading(const struct config *config, struct text *out);
 
 /* 16 hexadecimal digits of what can change numbers: every key except `checkpoint`, `threads`. */
 enum { CONFIG_HASH_SIZE = 17 };
@@ -140,7 +172,10 @@ bool config_is_key(const char *key);
 bool config_is_whole(const char *key);
 
 /* The value of a dotted key as config_print writes it, without the key. EX_DATAERR with the nearest
- * known key for an unknown one, or for a group. */
+ * known key for an unknown one, for a group, or for a key that the model does not have. */
 int config_value(const struct config *config, const char *key, struct text *out, struct error *err);
+
+/* Whether some config has a value of that key. EX_DATAERR as config_value for one that none has. */
+int config_check_key(const char *key, struct error *err);
 
 #endif

@@ -22,6 +22,8 @@ enum profile_shape {
 	PROFILE_X,           /* [cells] */
 	PROFILE_LAYER_X,     /* [layers][cells] */
 	PROFILE_INTERFACE_X, /* [layers + 1][cells] */
+	PROFILE_LAYER,       /* [layers] */
+	PROFILE_INTERFACE,   /* [layers + 1] */
 };
 
 /* One field per profile time, or one for the whole run. */
@@ -40,7 +42,7 @@ struct array {
 
 /* Where things are, for the axes of a run file. */
 struct axes {
-	int cells, layers;
+	int cells, layers;       /* cells 0: the model knows no x */
 	const double *x;         /* [cells], cell centres, m */
 	const double *layer;     /* [layers], relative height of the middle of each layer, 1 */
 	const double *interface; /* [layers + 1], relative height, 1 */
@@ -55,14 +57,18 @@ struct model {
 	size_t series_count;
 	const struct profile *profiles;
 	size_t profile_count;
+	bool keeps_state; /* a step that fails leaves the state as it was, which is then saved */
 
 	/* Allocate a state at t = 0 from a checked config. EX_SOFTWARE out of memory. */
 	int (*create)(const struct config *config, struct model_state **out, struct error *err);
 	/* The largest stable time step of the present state, s; a NaN in the state comes out as NaN. */
 	double (*time_step)(const struct model_state *state);
 	/* Advance by dt. EX_FAILED where the numbers are no longer a flow: says what and where; the
-	 * state is then useless. Allocates nothing. */
+	 * state is then useless, unless the model keeps it. Allocates nothing. */
 	int (*step)(struct model_state *state, double dt, struct error *err);
+	/* How far the last step went, s: not beyond its dt. NULL for a model that takes every step as
+	 * asked; one with this chooses its steps itself, and tries shorter ones where need be. */
+	double (*taken)(const struct model_state *state);
 	/* All series (but those with slope_of) of the present state and the last step,
 	 * [series_count]. Before the first step the per-step values are 0. */
 	void (*observe)(const struct model_state *state, double *values);
@@ -80,7 +86,7 @@ struct model {
 
 enum { MODEL_ARRAYS_MAX = 16 };
 
-extern const struct model dry_model;
+extern const struct model dry_model, immersed_model;
 
 /* The model that a config names. */
 const struct model *model_find(const struct config *config);

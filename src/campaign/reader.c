@@ -165,13 +165,9 @@ int reader_terms(const struct reader *reader, const struct node *node, struct te
 static int check_key(const struct reader *reader, const struct leaf_list *list, const char *key,
 	const struct node *node)
 {
-	struct config any = {0};
-	struct text value = {0};
 	struct error refusal = {0};
-	int result = config_value(&any, key, &value, &refusal);
 
-	text_clean(&value);
-	if (result)
+	if (config_check_key(key, &refusal))
 		return error_at(reader->err, refusal.code, reader->path, node->key_line, node->key_column,
 			"%s", refusal.text);
 	for (size_t i = 0; i < list->count; i++)

@@ -9,20 +9,22 @@
 static const char help[] =
 	"Check configs and print what they say in full, in SI units.\n\n"
 	"usage: talus check [--set KEY=VALUE]... FILE...\n"
-	"       talus check --reference\n"
+	"       talus check --reference[=MODEL]\n"
 	"example: talus check --set layers=20 configs/granular-collapse.yaml\n\n"
 	"options:\n"
 	"  -s, --set KEY=VALUE  override a key of every FILE, such as time.cfl=0.5; repeatable\n"
 	"                       (default: none)\n"
 	"  -q, --quiet          print nothing of what is right (default: off)\n"
-	"  -r, --reference      print every key with its default, unit, range and meaning, and\n"
-	"                       read no FILE (default: off)\n"
+	"  -r, --reference[=MODEL]\n"
+	"                       print every key of MODEL, dry (default) or immersed, with its\n"
+	"                       default, unit, range and meaning, and read no FILE (default: off)\n"
 	"  -h, --help           print this\n\n"
 	"exit: 0 all are right, 65 one is wrong (the message tells file, line and column)\n";
 
 struct check_options {
 	struct command_settings settings;
-	bool quiet, reference, help;
+	const char *reference; /* a model; NULL: none */
+	bool quiet, help;
 };
 
 static int read_options(int argc, char **argv, struct check_options *options)
@@ -30,20 +32,21 @@ static int read_options(int argc, char **argv, struct check_options *options)
 	static const struct option list[] = {
 		{"set", required_argument, NULL, 's'},
 		{"quiet", no_argument, NULL, 'q'},
-		{"reference", no_argument, NULL, 'r'},
+		{"reference", optional_argument, NULL, 'r'},
 		{"help", no_argument, NULL, 'h'},
 		{0},
 	};
 	struct error err = {0};
 	int option;
 
-	while ((option = getopt_long(argc, argv, ":s:qrh", list, NULL)) != -1) {
+	while ((option = getopt_long(argc, argv, ":s:qr::h", list, NULL)) != -1) {
 		if (option == 's' && command_settings_add(&options->settings, optarg, &err) != 0)
 			return command_fail(&err);
 		if (option == ':' || option == '?')
 			return command_option_error("check", option, argv);
 		options->quiet |= option == 'q';
-		options->reference |= option == 'r';
+		if (option == 'r')
+			options->reference = optarg ? optarg : "dry";
 		options->help |= option == 'h';
 	}
 	if (options->help)
@@ -75,6 +78,7 @@ static int check_file(const char *path, const struct check_options *options, boo
 static int check_main(int argc, char **argv)
 {
 	struct check_options options = {0};
+	struct error err = {0};
 	struct text out = {0};
 	int code = read_options(argc, argv, &options);
 
@@ -82,8 +86,8 @@ static int check_main(int argc, char **argv)
 		text_add(&out, help);
 		code = command_print(&out);
 	} else if (code == 0 && options.reference) {
-		config_print_reference(&out);
-		code = command_print(&out);
+		code = config_print_reference(options.reference, &out, &err) ? command_fail(&err)
+																	 : command_print(&out);
 	} else if (code == 0) {
 		for (int i = optind; i < argc && (code == 0 || code == EX_DATAERR); i++) {
 			int result = check_file(argv[i], &options, argc - optind > 1);

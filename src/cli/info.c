@@ -55,11 +55,8 @@ static int add_attribute(
 	return 0;
 }
 
-/* The keys that come first in every campaign. */
 static int add_config(struct run_file *file, struct text *out, struct error *err)
 {
-	static const char *const keys[] = {"pressure", "slope", "erodible_bed_thickness", "layers",
-		"n_ini_guess", "domain.cells", "time.end", "time.cfl"};
 	struct text stored = {0};
 	struct error other_version = {0};
 	struct config config;
@@ -67,11 +64,7 @@ static int add_config(struct run_file *file, struct text *out, struct error *err
 
 	if (result == 0 && config_parse(&config, text_string(&stored), stored.length,
 						   run_file_path(file), NULL, 0, &other_version) == 0)
-		for (size_t i = 0; i < sizeof keys / sizeof *keys && result == 0; i++) {
-			text_addf(out, "  %-23s", keys[i]);
-			result = config_value(&config, keys[i], out, err);
-			text_add(out, "\n");
-		}
+		config_print_leading(&config, out);
 	text_clean(&stored);
 	return result;
 }

@@ -26,14 +26,15 @@
 	}
 
 /* clang-format off */
-static const char *const models[] = {[MODEL_DRY] = "dry", NULL};
+static const char *const models[] = {
+	[MODEL_DRY] = "dry", [MODEL_IMMERSED] = "immersed", NULL};
 static const char *const pressures[] = {
 	[PRESSURE_HYDROSTATIC] = "hydrostatic", [PRESSURE_NON_HYDROSTATIC] = "non-hydrostatic", NULL};
 static const char *const boundaries[] = {
 	[BOUNDARY_WALL] = "wall", [BOUNDARY_OUTFLOW] = "outflow", NULL};
 static const char *const shapes[] = {
 	[SHAPE_COLUMN] = "column", [SHAPE_HEAP] = "heap", NULL};
-static const char *const laws[] = {[LAW_MU_I] = "mu_i", NULL};
+static const char *const laws[] = {[LAW_MU_I] = "mu_i", [LAW_LINEAR] = "linear", NULL};
 static const char *const wave_speeds[] = {
 	[WAVE_SPEED_FASTEST] = "fastest", [WAVE_SPEED_MEAN] = "mean", NULL};
 static const char *const reconstructions[] = {
@@ -53,83 +54,136 @@ static const char *const criteria[] = {
 	[CRITERION_RESIDUAL] = "residual", [CRITERION_INCREMENT] = "increment", NULL};
 static const char *const norms[] = {
 	[NORM_L1] = "l1", [NORM_L2] = "l2", [NORM_LINF] = "linf", NULL};
+static const char *const preserved[] = {
+	[PRESERVED_GRANULAR_MASS] = "granular-mass", [PRESERVED_HEIGHT] = "height", NULL};
+static const char *const bottoms[] = {
+	[BOTTOM_NO_SLIP] = "no-slip", [BOTTOM_FRICTION] = "friction", NULL};
+static const char *const interfaces[] = {
+	[INTERFACE_BACKWARD] = "backward", [INTERFACE_MEAN] = "mean", NULL};
+static const char *const switches[] = {[SWITCH_ON] = "on", [SWITCH_OFF] = "off", NULL};
+static const char *const time_schemes[] = {
+	[TIME_SCHEME_TR_BDF2] = "tr-bdf2", [TIME_SCHEME_SEMI_IMPLICIT] = "semi-implicit", NULL};
+
+/* Of which model a row is, where it is not of all. */
+enum { DRY = FIELD_ONLY(MODEL_DRY), IMMERSED = FIELD_ONLY(MODEL_IMMERSED), LEADING = FIELD_LEADING };
 
 static const struct field fields[] = {
 	CHOICE("model", model, 0, "dry", models,
-		"what flows: dry grains in layers (P1)"),
-	CHOICE("pressure", pressure, 0, "non-hydrostatic", pressures,
+		"what flows: dry: grains in layers (P1); immersed: grains in a fluid, uniform along x (P4)"),
+	CHOICE("pressure", pressure, DRY | LEADING, "non-hydrostatic", pressures,
 		"whether the vertical acceleration acts on the pressure"),
-	REAL(slope, FIELD_REQUIRED, "rad", "22 deg", "[0 deg, 90 deg)",
+	REAL(slope, FIELD_REQUIRED | LEADING, "rad", "22 deg", "[0 deg, 90 deg)",
 		"angle of the reference plane, positive downhill in +x"),
-	REAL(erodible_bed_thickness, FIELD_REQUIRED, "m", "1.82 mm", "[0, inf)",
+	REAL(erodible_bed_thickness, FIELD_REQUIRED | DRY | LEADING, "m", "1.82 mm", "[0, inf)",
 		"grains at rest under and before the initial shape (h_i); 0: a rigid bed"),
-	INTEGER(layers, FIELD_REQUIRED, "10", "[1, 512]",
-		"layers of equal thickness from the bed to the surface (N)"),
-	INTEGER(n_ini_guess, 0, "0", "[0, 511]",
+	INTEGER(layers, FIELD_REQUIRED | LEADING, "10", "[1, 512]",
+		"layers from the bed to the surface (N)"),
+	REALS(layer_fractions, IMMERSED | FIELD_UNSORTED, "1", "[]", "(0, 1]",
+		"thickness of each layer from the bed up, as a share of the whole; []: equal"),
+	INTEGER(n_ini_guess, DRY | LEADING, "0", "[0, 511]",
 		"layers of the coarse system behind the first pressure guess; divides layers; 0: none"),
 
-	GROUP(domain, 0, "the grid along the plane"),
-	REAL(domain.x_min, 0, "m", "-0.2 m", NULL, "left end"),
-	REAL(domain.x_max, 0, "m", "3 m", NULL, "right end, beyond x_min"),
-	INTEGER(domain.cells, 0, "640", "[2, 1000000]", "cells of equal width between the ends"),
-	CHOICE("domain.left", domain.left, 0, "wall", boundaries, "what the left end is"),
-	CHOICE("domain.right", domain.right, 0, "outflow", boundaries, "what the right end is"),
+	CHOICE("preserves", preserves, IMMERSED | LEADING, "granular-mass", preserved,
+		"what stays as it is while the grains dilate: granular-mass (PGM of P4), or height (PH)"),
+	CHOICE("bottom", bottom, IMMERSED, "no-slip", bottoms,
+		"shear of the lowest layer: over half of it (no-slip), or all of it (friction)"),
+	CHOICE("drag", drag, IMMERSED, "on", switches,
+		"drag between grains and fluid in the momentum equations"),
 
-	GROUP(initial, 0, "the grains at rest at time 0, above the bed layer"),
-	CHOICE("initial.shape", initial.shape, 0, "column", shapes,
+	GROUP(domain, DRY, "the grid along the plane"),
+	REAL(domain.x_min, DRY, "m", "-0.2 m", NULL, "left end"),
+	REAL(domain.x_max, DRY, "m", "3 m", NULL, "right end, beyond x_min"),
+	INTEGER(domain.cells, DRY | LEADING, "640", "[2, 1000000]", "cells of equal width between the ends"),
+	CHOICE("domain.left", domain.left, DRY, "wall", boundaries, "what the left end is"),
+	CHOICE("domain.right", domain.right, DRY, "outflow", boundaries, "what the right end is"),
+
+	GROUP(initial, 0, "the grains at rest at time 0"),
+	CHOICE("initial.shape", initial.shape, DRY, "column", shapes,
 		"column: one height from the left end to the front; heap: height exp(-((x - centre)/width)^2)"),
-	REAL(initial.height, 0, "m", "0.14 m", "(0, inf)", "height of the column, or of the heap's top, above the bed layer"),
-	REAL(initial.front, 0, "m", "0 m", NULL, "position of the gate, between x_min and x_max"),
-	REAL(initial.centre, 0, "m", "0 m", NULL, "of the heap"),
-	REAL(initial.width, 0, "m", "0.5 m", "(0, inf)", "of the heap: where its height has fallen to 1/e"),
+	REAL(initial.height, 0, "m", "0.14 m", "(0, inf)", "height of the column, or of the heap's top, above the bed layer, or of the mixture"),
+	REAL(initial.front, DRY, "m", "0 m", NULL, "position of the gate, between x_min and x_max"),
+	REAL(initial.centre, DRY, "m", "0 m", NULL, "of the heap"),
+	REAL(initial.width, DRY, "m", "0.5 m", "(0, inf)", "of the heap: where its height has fallen to 1/e"),
+	REAL(initial.solid_fraction, IMMERSED | LEADING | FIELD_REQUIRED, "1", "0.592", "(0, 1)",
+		"volume share of the grains: loose or dense (phi_0)"),
 
 	GROUP(grains, 0, "the material"),
 	REAL(grains.diameter, 0, "m", "0.7 mm", "(0, inf)", "grain diameter (d_s)"),
 	REAL(grains.density, 0, "kg/m3", "2500 kg/m3", "(0, inf)", "density of a grain (rho_s)"),
-	REAL(grains.solid_fraction, 0, "1", "0.62", "(0, 1]", "volume share of the grains (phi_s)"),
+	REAL(grains.solid_fraction, DRY, "1", "0.62", "(0, 1]", "volume share of the grains (phi_s)"),
+
+	GROUP(fluid, IMMERSED, "what fills the space between the grains"),
+	REAL(fluid.density, IMMERSED | FIELD_REQUIRED, "kg/m3", "1026 kg/m3", "(0, inf)",
+		"density, below that of a grain (rho_f)"),
+	REAL(fluid.viscosity, IMMERSED | LEADING | FIELD_REQUIRED, "Pa s", "9.8e-3 Pa s", "(0, inf)",
+		"viscosity (eta_f)"),
 
 	GROUP(rheology, 0, "friction of the moving grains"),
 	CHOICE("rheology.law", rheology.law, 0, "mu_i", laws,
-		"mu_i: mu = mu_s + (mu_2 - mu_s) I/(I + i_0), I the inertial number"),
+		"mu_i: mu = mu_s + (mu_2 - mu_s) I/(I + i_0), I the inertial number; linear (immersed only): "
+		"mu = mu_s + k_1 I"),
 	REAL(rheology.mu_s, 0, "1", "tan(25.5 deg)", "(0, inf)", "friction coefficient at rest"),
 	REAL(rheology.mu_2, 0, "1", "tan(36 deg)", "(0, inf)",
 		"friction coefficient of fast flow, at least mu_s"),
 	REAL(rheology.i_0, 0, "1", "0.279", "(0, inf)", "inertial number half way between the two"),
+	REAL(rheology.k_1, IMMERSED, "1", "90.5", "[0, inf)", "slope of the linear law (K_1)"),
+
+	GROUP(dilatancy, IMMERSED, "dilatation of the sheared grains, P4 (10)"),
+	REAL(dilatancy.k, IMMERSED, "1", "4.09", "[0, inf)", "dilatation constant (K)"),
+	REAL(dilatancy.k_2, IMMERSED, "1", "25", "[0, inf)",
+		"how the equilibrium fraction falls with the inertial number (K_2)"),
+	REAL(dilatancy.critical_fraction, IMMERSED, "1", "0.582", "(0, 1)",
+		"equilibrium fraction at rest (phi_c^stat)"),
+	CHOICE("dilatancy.interface_fraction", dilatancy.interface_fraction, IMMERSED, "backward",
+		interfaces,
+		"phi in the stress between two layers: of the upper one (backward), or their mean, as in "
+		"P4's tables"),
+
+	GROUP(walls, IMMERSED, "side walls of a channel, P4 (42)"),
+	REAL(walls.mu_w, IMMERSED, "1", "0", "[0, inf)", "friction coefficient (mu_w); 0: no walls"),
+	REAL(walls.width, IMMERSED, "m", "0.1 m", "(0, inf)", "width of the channel (W)"),
 
 	GROUP(regularisation, 0, "the papers' delta: keeps friction finite where nothing moves"),
 	REAL(regularisation.strain_rate, 0, "1/s", "1e-5 1/s", "(0, inf)", "in the viscosity"),
 	REAL(regularisation.velocity, 0, "m/s", "1e-5 m/s", "(0, inf)", "in the bottom friction"),
 
 	GROUP(time, 0, "how far and in what steps"),
-	REAL(time.end, 0, "s", "3 s", "(0, inf)", "simulated time at which the run is complete"),
-	REAL(time.cfl, 0, "1", "0.7", "(0, 1]", "share of the largest stable step that is taken"),
-	CHOICE("time.wave_speed", time.wave_speed, 0, "fastest", wave_speeds,
+	REAL(time.end, LEADING, "s", "3 s", "(0, inf)", "simulated time at which the run is complete"),
+	REAL(time.cfl, DRY | LEADING, "1", "0.7", "(0, 1]", "share of the largest stable step that is taken"),
+	CHOICE("time.wave_speed", time.wave_speed, DRY, "fastest", wave_speeds,
 		"velocity that limits the step: fastest layer, or mean over the layers (P1 eq. 14)"),
 
-	GROUP(scheme, 0, "readings of the discretisation"),
-	CHOICE("scheme.friction_reconstruction", scheme.friction_reconstruction, 0, "static",
+	CHOICE("time.scheme", time.scheme, IMMERSED | LEADING, "tr-bdf2", time_schemes,
+		"tr-bdf2: implicit, second order, steps by error; semi-implicit: as P4 3.4.4"),
+	REAL(time.tolerance, IMMERSED | LEADING, "1", "1e-4", "[1e-10, 0.1]",
+		"relative error that a step of tr-bdf2 may make"),
+	REAL(time.step, IMMERSED, "s", "1e-5 s", "(0, inf)",
+		"time step of semi-implicit; the drag allows some 1.4e-5 s at low viscosity"),
+
+	GROUP(scheme, DRY, "readings of the discretisation"),
+	CHOICE("scheme.friction_reconstruction", scheme.friction_reconstruction, DRY, "static",
 		reconstructions,
 		"where friction balances the slope in P1 (21): static: only at rest; printed: also in motion"),
 
-	GROUP(pressure_solver, 0, "the linear system of the non-hydrostatic pressure"),
-	CHOICE("pressure_solver.method", pressure_solver.method, 0, "auto", methods,
+	GROUP(pressure_solver, DRY, "the linear system of the non-hydrostatic pressure"),
+	CHOICE("pressure_solver.method", pressure_solver.method, DRY, "auto", methods,
 		"auto: conjugate-gradients or block-direct, by what the last steps cost; "
 		"block-gauss-seidel: as P1; lapack-band: bits depend on the machine"),
-	CHOICE("pressure_solver.operator", pressure_solver.operator_, 0, "symmetric", operators,
+	CHOICE("pressure_solver.operator", pressure_solver.operator_, DRY, "symmetric", operators,
 		"discrete operator: symmetric, or pointwise as P1 Appendix A (for its tables)"),
-	CHOICE("pressure_solver.start", pressure_solver.start, 0, "zero", starts,
+	CHOICE("pressure_solver.start", pressure_solver.start, DRY, "zero", starts,
 		"first guess of the fluctuation where n_ini_guess is 0: zero, or that of the previous step"),
-	CHOICE("pressure_solver.criterion", pressure_solver.criterion, 0, "residual", criteria,
+	CHOICE("pressure_solver.criterion", pressure_solver.criterion, DRY, "residual", criteria,
 		"what stops the iteration: the true residual, or the increment of a sweep (P1)"),
-	REAL(pressure_solver.residual, 0, "1", "1e-8", "(0, 1)",
+	REAL(pressure_solver.residual, DRY, "1", "1e-8", "(0, 1)",
 		"with criterion residual: the relative residual |b - A x|/|b| at which it stops"),
-	CHOICE("pressure_solver.norm", pressure_solver.norm, 0, "l2", norms,
+	CHOICE("pressure_solver.norm", pressure_solver.norm, DRY, "l2", norms,
 		"norm of a sweep's increment that stops the iteration"),
-	REAL(pressure_solver.tolerance, 0, "m2/s2", "1e-6 m2/s2", "(0, inf)",
+	REAL(pressure_solver.tolerance, DRY, "m2/s2", "1e-6 m2/s2", "(0, inf)",
 		"value of that norm at which it stops"),
-	REAL(pressure_solver.relaxation, 0, "1", "0", "[0, 2)",
+	REAL(pressure_solver.relaxation, DRY, "1", "0", "[0, 2)",
 		"over-relaxation factor of red-black-line-relaxation; 0: chosen from the number of layers"),
-	INTEGER(pressure_solver.max_iterations, 0, "20000", "[1, inf)",
+	INTEGER(pressure_solver.max_iterations, DRY, "20000", "[1, inf)",
 		"sweeps after which the solver has failed"),
 
 	GROUP(output, 0, "what is recorded; does not touch the steps"),
@@ -137,10 +191,12 @@ static const struct field fields[] = {
 		"times of the stored profiles, at most time.end"),
 	REAL(output.series_every, 0, "s", "0 s", "[0, inf)",
 		"simulated time between records of the series; 0: every step"),
-	REAL(output.front_threshold, 0, "m", "0.5 mm", "(0, inf)",
+	REAL(output.front_threshold, DRY, "m", "0.5 mm", "(0, inf)",
 		"thickness above the bed layer where the front is"),
-	REAL(output.static_speed, 0, "m/s", "0.01 m/s", "(0, inf)",
+	REAL(output.static_speed, DRY, "m/s", "0.01 m/s", "(0, inf)",
 		"a layer slower than this counts as at rest"),
+	REAL(output.steady_surface, IMMERSED, "m", "1e-9 m", "[1e-12, inf)",
+		"grains above the depth at which the exact steady flow with walls begins; 1e-6 m in P4"),
 
 	GROUP(checkpoint, FIELD_PASSIVE, "how much work a lost machine can cost"),
 	REAL(checkpoint.every, FIELD_PASSIVE, "s", "30 s", "[0, inf)",
@@ -158,4 +214,4 @@ bool config_symmetric_only(int method)
 	return method == METHOD_CONJUGATE_GRADIENTS || method == METHOD_BLOCK_DIRECT;
 }
 
-const struct field_table config_table = {fields, sizeof fields / sizeof *fields};
+const struct field_table config_table = {fields, sizeof fields / sizeof *fields, "model"};

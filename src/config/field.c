@@ -14,6 +14,33 @@ const struct field *field_find(const struct field_table *table, const char *key)
 	return NULL;
 }
 
+/* The value of the selector. */
+static int selected(const struct field_table *table, const void *target)
+{
+	return *(const int *)((const char *)target + field_find(table, table->selector)->offset);
+}
+
+bool field_applies(const struct field_table *table, const struct field *field, const void *target)
+{
+	return field->flags < FIELD_ONLY(0) || field->flags & FIELD_ONLY(selected(table, target));
+}
+
+int field_inapplicable(const struct field_table *table, const struct field *field,
+	const void *target, struct error *err)
+{
+	const struct field *selector = field_find(table, table->selector);
+	struct text owners = {0};
+
+	for (int i = 0; selector->choices[i]; i++)
+		if (field->flags & FIELD_ONLY(i))
+			text_addf(&owners, "%s%s", owners.length ? ", " : "", selector->choices[i]);
+	(void)error_set(err, EX_DATAERR, "'%s' is a key of %s: %s, and %s is %s here", field->name,
+		selector->name, text_string(&owners), selector->name,
+		selector->choices[selected(table, target)]);
+	text_clean(&owners);
+	return -1;
+}
+
 const char *field_leaf(const char *key)
 {
 	const char *dot = strrchr(key, '.');
@@ -32,14 +59,17 @@ int field_depth(const char *key)
 	return count;
 }
 
-/* The key that was probably meant: one a few letters off at the same depth, or one of the same name
- * elsewhere; else NULL. */
+/* The key that was probably meant: one of the same name elsewhere, or one a few letters off at the same
+ * depth; else NULL. */
 static const struct field *nearest_key(const struct field_table *table, const char *key)
 {
 	const struct field *nearest = NULL;
 	size_t length = strlen(field_leaf(key));
 	int best = length < 6 ? 3 : (int)(length / 3) + 2;
 
+	for (size_t i = 0; i < table->count; i++)
+		if (!strcmp(field_leaf(table->fields[i].name), field_leaf(key)))
+			return &table->fields[i];
 	for (size_t i = 0; i < table->count; i++) {
 		const char *name = table->fields[i].name;
 		int distance = text_distance(key, name);
@@ -49,9 +79,6 @@ static const struct field *nearest_key(const struct field_table *table, const ch
 			nearest = &table->fields[i];
 		}
 	}
-	for (size_t i = 0; i < table->count && !nearest; i++)
-		if (!strcmp(field_leaf(table->fields[i].name), field_leaf(key)))
-			nearest = &table->fields[i];
 	return nearest;
 }
 
@@ -98,6 +125,12 @@ static int set_place(const struct field_source *source, int line, int column, st
 int field_set_place(const struct field_source *source, const struct node *node, struct error *err)
 {
 	return set_place(source, node->line, node->column, err);
+}
+
+int field_set_key_place(
+	const struct field_source *source, const struct node *node, struct error *err)
+{
+	return set_place(source, node->key_line, node->key_column, err);
 }
 
 static int collect_mapping(struct field_reader *reader, const struct field_source *source,

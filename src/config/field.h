@@ -21,7 +21,12 @@ enum field_kind {
 enum {
 	FIELD_REQUIRED = 1, /* without a default */
 	FIELD_PASSIVE = 2,  /* cannot change numbers: outside hash and differences */
+	FIELD_LEADING = 4,  /* of the keys that tell a reader at once what this is */
+	FIELD_UNSORTED = 8, /* of reals: in any order */
 };
+
+/* A row that applies only where the table's selector has choice `i`, or one of several, or-ed. */
+#define FIELD_ONLY(i) (1 << (8 + (i)))
 
 struct field {
 	const char *name; /* dotted key, "domain.cells" */
@@ -38,6 +43,9 @@ struct field {
 struct field_table {
 	const struct field *fields;
 	size_t count; /* at most FIELDS_MAX */
+	/* The choice whose value says which rows apply; NULL: all do. A row that does not apply takes its
+	 * default, is refused where it is given, and is neither printed nor compared. */
+	const char *selector;
 };
 
 enum { FIELDS_MAX = 128 };
@@ -83,20 +91,29 @@ int field_blame(const struct field_reader *reader, const char *key, const char *
 /* The row of a dotted key, NULL if there is none. */
 const struct field *field_find(const struct field_table *table, const char *key);
 
+/* Does the row apply to the struct at `target`? */
+bool field_applies(const struct field_table *table, const struct field *field, const void *target);
+
+/* "domain.cells is a key of model: dry, and here model is immersed" as EX_DATAERR without a place.
+ * Returns -1. */
+int field_inapplicable(const struct field_table *table, const struct field *field,
+	const void *target, struct error *err);
+
 /* "unknown key 'layer'; did you mean 'layers'?" as EX_DATAERR without a place. Returns -1. */
 int field_unknown(const struct field_table *table, const char *key, struct error *err);
 
 /* One value as YAML in SI, as field_convert reads it back to the same bits. */
 void field_print_value(const struct field *field, const void *target, struct text *out);
 
-/* Every key as nested YAML, without the passive ones where `active_only`. */
+/* Every key that applies as nested YAML, without the passive ones where `active_only`. */
 void field_print(
 	const struct field_table *table, const void *target, bool active_only, struct text *out);
 
-/* Every key with meaning, unit, range or choices, and default: YAML that reads as the defaults. */
-void field_print_reference(const struct field_table *table, struct text *out);
+/* Every key that applies to the defaults at `target` with meaning, unit, range or choices, and
+ * default: YAML that reads as the defaults. */
+void field_print_reference(const struct field_table *table, const void *target, struct text *out);
 
-/* One line per active key that differs: "layers: 10 -> 20". */
+/* One line per active key of both that differs: "layers: 10 -> 20". */
 void field_differences(
 	const struct field_table *table, const void *a, const void *b, struct text *out);
 

@@ -80,7 +80,7 @@ static int convert_list(const struct field *field, const struct field_place *pla
 			(void)error_set(
 				err, EX_DATAERR, "expected a single value, not %s", node_kind_name(item));
 		else if (convert_real(field, item->text, &list->values[i], err) == 0 && i > 0 &&
-				 list->values[i] <= list->values[i - 1])
+				 !(field->flags & FIELD_UNSORTED) && list->values[i] <= list->values[i - 1])
 			(void)error_set(err, EX_DATAERR, "%s is not above the value before it",
 				text_excerpt(item->text, shown, sizeof shown));
 		if (err->code)
@@ -122,28 +122,51 @@ static int convert_default(const struct field *field, void *member, struct error
 	return convert_value(field, &place, member, err);
 }
 
+/* One row: from its place, or its default. */
+static int convert_field(
+	const struct field_reader *reader, const struct field *field, void *target, struct error *err)
+{
+	const struct field_place *place = &reader->places[field - reader->table->fields];
+	void *member = (char *)target + field->offset;
+
+	if (!place->source)
+		return convert_default(field, member, err);
+	if (convert_value(field, place, member, err) == 0)
+		return 0;
+	(void)error_context(err, "%s", field->name);
+	return err->file[0] ? -1 : field_set_place(place->source, place->node, err);
+}
+
+/* Refuse a key that is given and does not apply, and miss one that is required and does. */
+static int check_presence(const struct field_reader *reader, const struct field *field,
+	const void *target, struct error *err)
+{
+	const struct field_place *place = &reader->places[field - reader->table->fields];
+	bool applies = field_applies(reader->table, field, target);
+
+	if (place->source && !applies) {
+		(void)field_inapplicable(reader->table, field, target, err);
+		return field_set_key_place(place->source, place->node, err);
+	}
+	if (!place->source && applies && field->flags & FIELD_REQUIRED) {
+		(void)error_set(err, EX_DATAERR, "missing key '%s'; for example `%s: %s`", field->name,
+			field->name, field->value);
+		return field_set_place(reader->all.source, reader->all.node, err);
+	}
+	return 0;
+}
+
 int field_convert(const struct field_reader *reader, void *target, struct error *err)
 {
-	for (size_t i = 0; i < reader->table->count; i++) {
-		const struct field *field = &reader->table->fields[i];
-		const struct field_place *place = &reader->places[i];
-		void *member = (char *)target + field->offset;
+	const struct field_table *table = reader->table;
 
-		if (field->kind == FIELD_GROUP)
+	if (table->selector)
+		TRY(convert_field(reader, field_find(table, table->selector), target, err));
+	for (size_t i = 0; i < table->count; i++) {
+		if (table->fields[i].kind == FIELD_GROUP)
 			continue;
-		if (!place->source && field->flags & FIELD_REQUIRED) {
-			(void)error_set(err, EX_DATAERR, "missing key '%s'; for example `%s: %s`", field->name,
-				field->name, field->value);
-			return field_set_place(reader->all.source, reader->all.node, err);
-		}
-		if (!place->source) {
-			TRY(convert_default(field, member, err));
-			continue;
-		}
-		if (convert_value(field, place, member, err) == 0)
-			continue;
-		(void)error_context(err, "%s", field->name);
-		return err->file[0] ? -1 : field_set_place(place->source, place->node, err);
+		TRY(check_presence(reader, &table->fields[i], target, err));
+		TRY(convert_field(reader, &table->fields[i], target, err));
 	}
 	return 0;
 }

@@ -13,6 +13,10 @@ int field_depth(const char *key);
 /* Give an error that is set the place of a node. Returns -1. */
 int field_set_place(const struct field_source *source, const struct node *node, struct error *err);
 
+/* The same for the place of its key. */
+int field_set_key_place(
+	const struct field_source *source, const struct node *node, struct error *err);
+
 /* "dry, immersed" */
 void field_list_choices(const struct field *field, struct text *out);
 

@@ -54,7 +54,7 @@ void field_print(
 	for (size_t i = 0; i < table->count; i++) {
 		const struct field *field = &table->fields[i];
 
-		if (active_only && field->flags & FIELD_PASSIVE)
+		if ((active_only && field->flags & FIELD_PASSIVE) || !field_applies(table, field, target))
 			continue;
 		print_key(field, out);
 		text_add(out, field->kind == FIELD_GROUP ? "" : " ");
@@ -71,7 +71,9 @@ static void describe(const struct field *field, struct text *out)
 	} else if (field->kind == FIELD_INTEGER) {
 		text_add(out, "a whole number");
 	} else {
-		text_add(out, field->kind == FIELD_REALS ? "an increasing list, each " : "");
+		if (field->kind == FIELD_REALS)
+			text_add(
+				out, field->flags & FIELD_UNSORTED ? "a list, each " : "an increasing list, each ");
 		quantity_describe(field->unit, out);
 	}
 	if (field->range) {
@@ -81,12 +83,15 @@ static void describe(const struct field *field, struct text *out)
 	text_add(out, field->flags & FIELD_REQUIRED ? "; required, here an example" : "");
 }
 
-void field_print_reference(const struct field_table *table, struct text *out)
+void field_print_reference(const struct field_table *table, const void *target, struct text *out)
 {
 	for (size_t i = 0; i < table->count; i++) {
 		const struct field *field = &table->fields[i];
 		int indent = 2 * field_depth(field->name);
+		bool selector = table->selector && !strcmp(field->name, table->selector);
 
+		if (!field_applies(table, field, target))
+			continue;
 		text_addf(out, "%s%*s# %s\n", indent ? "" : "\n", indent, "", field->meaning);
 		if (field->kind != FIELD_GROUP) {
 			text_addf(out, "%*s# ", indent, "");
@@ -94,8 +99,12 @@ void field_print_reference(const struct field_table *table, struct text *out)
 			text_add(out, "\n");
 		}
 		print_key(field, out);
-		text_addf(out, "%s%s\n", field->kind == FIELD_GROUP ? "" : " ",
-			field->kind == FIELD_GROUP ? "" : field->value);
+		text_add(out, field->kind == FIELD_GROUP ? "" : " ");
+		if (selector)
+			field_print_value(field, target, out);
+		else
+			text_add(out, field->kind == FIELD_GROUP ? "" : field->value);
+		text_add(out, "\n");
 	}
 }
 
@@ -106,7 +115,8 @@ void field_differences(
 		const struct field *field = &table->fields[i];
 		struct text left = {0}, right = {0};
 
-		if (field->flags & FIELD_PASSIVE)
+		if (field->flags & FIELD_PASSIVE || !field_applies(table, field, a) ||
+			!field_applies(table, field, b))
 			continue;
 		field_print_value(field, a, &left);
 		field_print_value(field, b, &right);

@@ -32,6 +32,8 @@ static const struct unit {
 	{"kg/m3", "kg/m3", 0, 1},
 	{"g/cm3", "kg/m3", 3, 1},
 	{"m2/s2", "m2/s2", 0, 1},
+	{"Pa s", "Pa s", 0, 1},
+	{"mPa s", "Pa s", -3, 1},
 };
 
 static const struct dimension {
@@ -45,6 +47,7 @@ static const struct dimension {
 	{"1/s", "a rate"},
 	{"kg/m3", "a density"},
 	{"m2/s2", "a pressure over density"},
+	{"Pa s", "a viscosity"},
 };
 
 enum { UNITS = sizeof units / sizeof *units, QUANTITY_SIZE = 128 };

@@ -6,7 +6,7 @@
 #include "base/stop.h"
 #include "run/checkpoint.h"
 
-/* A step shorter than this part of the run would never get there. */
+/* A step shorter than this part of the run would never get there, unless steps grow again. */
 #define SHORTEST 1e-12
 
 /* The next step. Only the end of the run shortens steps, and the last two share what is left, so
@@ -16,8 +16,9 @@ static int choose(
 {
 	double end = attempt->config->time.end, left = end - attempt->time;
 	double dt = attempt->model->time_step(attempt->state);
+	double shortest = attempt->model->taken ? 0 : SHORTEST * end;
 
-	if (!(dt >= SHORTEST * end) || attempt->time + dt == attempt->time)
+	if (!(dt >= shortest) || attempt->time + dt == attempt->time)
 		return error_set(err, EX_FAILED, "the time step has become %g s: %s (end: %g s)", dt,
 			dt > 0 ? "too short to get to the end" : "the state is not a flow", end);
 	*step = (struct recorder_step){.from = attempt->time, .dt = dt, .to = attempt->time + dt};
@@ -33,6 +34,14 @@ static int choose(
 	return 0;
 }
 
+/* The model took less than it was offered. */
+static void shorten(struct recorder_step *step, double taken)
+{
+	if (taken >= step->dt)
+		return;
+	*step = (struct recorder_step){.from = step->from, .dt = taken, .to = step->from + taken};
+}
+
 static int advance(struct attempt *attempt, struct recorder_step *step, struct error *err)
 {
 	bool shared = false;
@@ -42,6 +51,8 @@ static int advance(struct attempt *attempt, struct recorder_step *step, struct e
 		TRY(checkpoint_mark(attempt, err));
 	recorder_before(attempt->recorder, attempt->state, step);
 	TRY(attempt->model->step(attempt->state, step->dt, err));
+	if (attempt->model->taken)
+		shorten(step, attempt->model->taken(attempt->state));
 	attempt->step++;
 	attempt->time = step->to;
 	return recorder_after(attempt->recorder, attempt->state, step, err);
@@ -76,6 +87,18 @@ static int stop(struct attempt *attempt, bool saved, struct error *err)
 		name ? name : "?", (unsigned long long)attempt->step, attempt->time);
 }
 
+/* A step failed. The state before it is saved where the model still has it. */
+static int fail(struct attempt *attempt, bool saved, struct error *err)
+{
+	struct error second = {0};
+
+	if (err->code == EX_FAILED && attempt->model->keeps_state && !saved &&
+		checkpoint_write(attempt, RUN_UNFINISHED, &second) != 0)
+		attempt_log(attempt, "the state before the failed step is not saved: %s", second.text);
+	return error_context(
+		err, "step %llu at t = %g s", (unsigned long long)attempt->step + 1, attempt->time);
+}
+
 int loop_run(struct attempt *attempt, struct error *err)
 {
 	struct recorder_step step = {0};
@@ -87,8 +110,7 @@ int loop_run(struct attempt *attempt, struct error *err)
 		if (stop_signal())
 			return stop(attempt, saved, err);
 		if (advance(attempt, &step, err) != 0)
-			return error_context(
-				err, "step %llu at t = %g s", (unsigned long long)attempt->step + 1, attempt->time);
+			return fail(attempt, saved, err);
 		saved = false;
 		if (!step.last && is_due(&due, attempt)) {
 			TRY(checkpoint_write(attempt, RUN_UNFINISHED, err));

@@ -2,6 +2,7 @@
 
 static const struct model *const models[] = {
 	[MODEL_DRY] = &dry_model,
+	[MODEL_IMMERSED] = &immersed_model,
 };
 
 const struct model *model_find(const struct config *config)

@@ -7,16 +7,57 @@
 #include "run/history.h"
 #include "run/recorder_parts.h"
 
+/* The length of each axis of a profile; 1 along one that it does not have. */
+static const struct {
+	bool layers, interfaces, x;
+} shapes[] = {
+	[PROFILE_X] = {.x = true},
+	[PROFILE_LAYER_X] = {.layers = true, .x = true},
+	[PROFILE_INTERFACE_X] = {.interfaces = true, .x = true},
+	[PROFILE_LAYER] = {.layers = true},
+	[PROFILE_INTERFACE] = {.interfaces = true},
+};
+
+struct recorder_axes recorder_axes(const struct recorder *r, const struct profile *profile)
+{
+	bool layers = shapes[profile->shape].layers, interfaces = shapes[profile->shape].interfaces;
+
+	return (struct recorder_axes){
+		.up = layers       ? "layer"
+			  : interfaces ? "interface"
+						   : NULL,
+		.ups = layers       ? r->layers
+			   : interfaces ? r->layers + 1
+							: 1,
+		.x = shapes[profile->shape].x ? "x" : NULL,
+		.xs = shapes[profile->shape].x ? r->cells : 1,
+	};
+}
+
 static size_t profile_size(const struct recorder *r, const struct profile *profile)
 {
-	switch (profile->shape) {
-	case PROFILE_X:
-		return r->cells;
-	case PROFILE_LAYER_X:
-		return r->layers * r->cells;
-	default:
-		return (r->layers + 1) * r->cells;
-	}
+	struct recorder_axes axes = recorder_axes(r, profile);
+
+	return axes.ups * axes.xs;
+}
+
+/* Series that are made of every step must see every step; others only when they are recorded. */
+static bool watches_steps(const struct model *model)
+{
+	for (size_t i = 0; i < model->series_count; i++)
+		if (model->series[i].slope_of >= 0 || model->series[i].per_step_sum)
+			return true;
+	return false;
+}
+
+static int grow(double **values, size_t count, struct error *err)
+{
+	double *larger = realloc(*values, (count + 1) * sizeof *larger);
+
+	if (!larger)
+		return error_memory(err, count * sizeof *larger);
+	*values = larger;
+	return 0;
 }
 
 int recorder_create(const struct model *model, const struct config *config, const struct axes *axes,
@@ -29,6 +70,7 @@ int recorder_create(const struct model *model, const struct config *config, cons
 		return error_memory(err, sizeof *r);
 	*out = r;
 	r->model = model;
+	r->watches_steps = watches_steps(model);
 	r->config = config;
 	r->axes = *axes;
 	r->cells = (size_t)axes->cells;
@@ -45,8 +87,7 @@ int recorder_create(const struct model *model, const struct config *config, cons
 
 		field->size = profile_size(r, &model->profiles[p]);
 		most = field->size > most ? field->size : most;
-		field->before = malloc((field->size + 1) * sizeof *field->before);
-		if (!field->before)
+		if (grow(&field->before, field->size, err))
 			goto failed;
 	}
 	r->after = malloc((most + 1) * sizeof *r->after);
@@ -83,16 +124,6 @@ void recorder_free(struct recorder *r)
 	free(r->profile_times);
 	free(r->after);
 	free(r);
-}
-
-static int grow(double **values, size_t count, struct error *err)
-{
-	double *larger = realloc(*values, (count + 1) * sizeof *larger);
-
-	if (!larger)
-		return error_memory(err, count * sizeof *larger);
-	*values = larger;
-	return 0;
 }
 
 int recorder_reserve_rows(struct recorder *r, size_t rows, struct error *err)
@@ -190,13 +221,16 @@ static int add_series(struct recorder *r, const struct model_state *state,
 	const struct recorder_step *step, struct error *err)
 {
 	const struct model *model = r->model;
+	bool sampled = is_sampled(r, step);
 
+	if (!sampled && !r->watches_steps)
+		return 0;
 	model->observe(state, r->observed);
 	TRY(history_add(&r->now.history, step->to, r->observed, err));
 	for (size_t i = 0; i < model->series_count; i++)
 		r->now.sums[i] =
 			model->series[i].per_step_sum ? r->now.sums[i] + r->observed[i] : r->observed[i];
-	if (!is_sampled(r, step))
+	if (!sampled)
 		return 0;
 	TRY(recorder_reserve_rows(r, r->now.rows + 1, err));
 	r->columns[RECORDER_TIME][r->now.rows] = step->to;

@@ -77,6 +77,7 @@ static void write_axes(const struct recorder *r, struct image *image)
 static void write_profile(const struct recorder *r, size_t index, struct image *image)
 {
 	const struct profile *profile = &r->model->profiles[index];
+	struct recorder_axes axes = recorder_axes(r, profile);
 	struct image_data data = {.path = profile->name,
 		.units = profile->units,
 		.long_name = profile->long_name,
@@ -86,12 +87,14 @@ static void write_profile(const struct recorder *r, size_t index, struct image *
 		data.extent[data.rank] = r->now.profile_rows;
 		data.scales[data.rank++] = "profile_time";
 	}
-	if (profile->shape != PROFILE_X) {
-		data.extent[data.rank] = profile->shape == PROFILE_LAYER_X ? r->layers : r->layers + 1;
-		data.scales[data.rank++] = profile->shape == PROFILE_LAYER_X ? "layer" : "interface";
+	if (axes.up) {
+		data.extent[data.rank] = axes.ups;
+		data.scales[data.rank++] = axes.up;
 	}
-	data.extent[data.rank] = r->cells;
-	data.scales[data.rank++] = "x";
+	if (axes.x) {
+		data.extent[data.rank] = axes.xs;
+		data.scales[data.rank++] = axes.x;
+	}
 	if (profile->constant || r->now.profile_rows)
 		image_dataset(image, &data);
 }

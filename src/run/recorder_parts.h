@@ -28,6 +28,7 @@ struct recorder {
 	const struct config *config;
 	struct axes axes;
 	size_t cells, layers;
+	bool watches_steps; /* observes every step, recorded or not */
 	struct recorder_place now;
 	struct recorder_place mark; /* of recorder_mark; no sums: there is none */
 
@@ -40,6 +41,14 @@ struct recorder {
 	struct field_rows *fields; /* [profiles] */
 	double *after;             /* the largest field, after the step */
 };
+
+/* The axes of a profile: NULL and 1 for one that it does not have. */
+struct recorder_axes {
+	const char *up, *x;
+	size_t ups, xs;
+};
+
+struct recorder_axes recorder_axes(const struct recorder *recorder, const struct profile *profile);
 
 int recorder_reserve_rows(struct recorder *recorder, size_t rows, struct error *err);
 int recorder_reserve_profiles(struct recorder *recorder, size_t rows, struct error *err);

@@ -35,7 +35,7 @@ static struct table_cell gather(
 
 		if (layout->places[i].row != row || layout->places[i].column != column)
 			continue;
-		asked = true;
+		asked |= layout->places[i].partner[layout->measures[m].metric->partner] != LAYOUT_ALONE;
 		if (!isnan(value))
 			samples[count++] = value;
 	}

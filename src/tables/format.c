@@ -5,7 +5,10 @@
 
 #include "tables/format.h"
 
-/* Enough decimals for three significant digits; -1: better with a power of ten. */
+/* Values below 10^SMALL are written as 3.05e-05 where significant digits count. */
+enum { SMALL = -3, EXPONENT = -1 };
+
+/* Enough decimals for three significant digits, or EXPONENT. */
 static int decimals_of(const struct table_column *column, double value)
 {
 	int whole;
@@ -14,16 +17,14 @@ static int decimals_of(const struct table_column *column, double value)
 		return column->decimals;
 	if (value == 0 || !isfinite(value))
 		return 2;
-	if (fabs(value) < 1e-3)
-		return -1;
 	whole = (int)floor(log10(fabs(value))) + 1;
-	return whole >= 3 ? 0 : 3 - whole;
+	return whole >= 3 ? 0 : whole < SMALL ? EXPONENT : 3 - whole;
 }
 
 static void add_number(double value, int decimals, struct text *out)
 {
-	if (decimals < 0)
-		text_addf(out, "%.1e", value);
+	if (decimals == EXPONENT)
+		text_addf(out, "%.2e", value);
 	else
 		text_addf(out, "%.*f", decimals, value);
 }

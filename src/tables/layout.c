@@ -207,12 +207,29 @@ static int find_partners(struct layout *layout, enum metric_partner kind, const 
 	return 0;
 }
 
+/* The run of the row before, in the same column and repeat. */
+static void find_previous(struct layout *layout)
+{
+	const struct experiment *experiment = layout->experiment;
+
+	for (size_t i = 0; i < experiment->run_count; i++) {
+		struct place *mine = &layout->places[i];
+
+		mine->partner[PARTNER_PREVIOUS] = LAYOUT_ALONE;
+		for (size_t k = 0; mine->row > 0 && k < experiment->run_count; k++)
+			if (layout->places[k].row == mine->row - 1 &&
+				layout->places[k].column == mine->column &&
+				experiment->runs[k].repeat == experiment->runs[i].repeat)
+				mine->partner[PARTNER_PREVIOUS] = k;
+	}
+}
+
 static int pair_runs(struct layout *layout, struct error *err)
 {
 	static const char *const nouns[] = {"", "baseline", "reference"};
 	const struct setting_list *changes[] = {
 		NULL, &layout->wanted->baseline, &layout->wanted->reference};
-	bool needed[3] = {false};
+	bool needed[PARTNERS] = {false};
 
 	for (size_t i = 0; i < layout->measure_count; i++) {
 		const struct metric *metric = layout->measures[i].metric;
@@ -220,6 +237,8 @@ static int pair_runs(struct layout *layout, struct error *err)
 		if (metric)
 			needed[metric->partner] = true;
 	}
+	if (needed[PARTNER_PREVIOUS])
+		find_previous(layout);
 	for (int kind = PARTNER_BASELINE; kind <= PARTNER_REFERENCE; kind++) {
 		if (!needed[kind])
 			continue;

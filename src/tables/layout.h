@@ -3,6 +3,7 @@
 #define TALUS_LAYOUT_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "tables/metric.h"
 #include "talus/experiment.h"
@@ -27,11 +28,12 @@ struct measure {
 };
 
 enum { LAYOUT_NOWHERE = -1 };
+#define LAYOUT_ALONE SIZE_MAX /* a run of the first row, which has none before it */
 
 /* The place of a run. */
 struct place {
-	long row, column;  /* LAYOUT_NOWHERE: not in this table */
-	size_t partner[3]; /* by enum metric_partner: index of the run it is compared with */
+	long row, column;         /* LAYOUT_NOWHERE: not in this table */
+	size_t partner[PARTNERS]; /* by enum metric_partner: index of the run it is compared with */
 };
 
 struct layout {

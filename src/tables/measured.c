@@ -60,7 +60,8 @@ static void measure(struct measured *measured, size_t index, struct run_file *fi
 	const struct experiment *experiment = measured->layout->experiment;
 	const struct experiment_run *run = &experiment->runs[index];
 	const struct metric *metric = measure->metric;
-	struct sample sample = {.file = file, .config = &run->config, .at = measure->at};
+	struct sample sample = {
+		.file = file, .config = &run->config, .at = measure->at, .metric = metric};
 	struct error err = {0};
 
 	if (isnan(sample.at))
@@ -68,6 +69,8 @@ static void measure(struct measured *measured, size_t index, struct run_file *fi
 	if (metric->partner != PARTNER_NONE) {
 		size_t partner = measured->layout->places[index].partner[metric->partner];
 
+		if (partner == LAYOUT_ALONE)
+			return;
 		sample.partner = partner == index ? file : open_partner(measured, partner);
 		if (!sample.partner) {
 			tell_missing(

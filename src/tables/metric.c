@@ -6,9 +6,10 @@
 #include <string.h>
 
 #include "run/run_file_parts.h"
+#include "tables/metric_parts.h"
 #include "talus/tables.h"
 
-static size_t dataset_count(const struct dataset *data)
+size_t metric_count(const struct dataset *data)
 {
 	size_t count = 1;
 
@@ -17,41 +18,15 @@ static size_t dataset_count(const struct dataset *data)
 	return count;
 }
 
-/* A dataset that holds at least one value. */
-static int read_values(
-	struct run_file *file, const char *name, struct dataset *data, struct error *err)
+int metric_read(struct run_file *file, const char *name, struct dataset *out, struct error *err)
 {
-	TRY(run_file_dataset(file, name, data, err));
-	if (data->values && dataset_count(data))
+	TRY(run_file_dataset(file, name, out, err));
+	if (out->values && metric_count(out))
 		return 0;
-	free(data->values);
-	data->values = NULL;
+	free(out->values);
+	out->values = NULL;
 	(void)error_set(err, EX_DATAERR, "dataset '%s' is empty", name);
 	return -1;
-}
-
-static int series_greatest(
-	const struct sample *sample, const char *name, double *out, struct error *err)
-{
-	struct dataset data = {0};
-
-	TRY(read_values(sample->file, name, &data, err));
-	*out = data.values[0];
-	for (size_t i = 1; i < dataset_count(&data); i++)
-		*out = fmax(*out, data.values[i]);
-	free(data.values);
-	return 0;
-}
-
-static int series_last(
-	const struct sample *sample, const char *name, double *out, struct error *err)
-{
-	struct dataset data = {0};
-
-	TRY(read_values(sample->file, name, &data, err));
-	*out = data.values[dataset_count(&data) - 1];
-	free(data.values);
-	return 0;
 }
 
 /* In percent of the CPU time of the whole run. */
@@ -62,22 +37,12 @@ static int series_share(
 	double all, sum = 0;
 
 	TRY(run_file_real(sample->file, "cpu_seconds", &all, err));
-	TRY(read_values(sample->file, name, &data, err));
-	for (size_t i = 0; i < dataset_count(&data); i++)
+	TRY(metric_read(sample->file, name, &data, err));
+	for (size_t i = 0; i < metric_count(&data); i++)
 		sum += data.values[i];
 	free(data.values);
 	*out = 100 * sum / all;
 	return 0;
-}
-
-static int iterations(const struct sample *sample, double *out, struct error *err)
-{
-	return series_greatest(sample, "pressure_iterations", out, err);
-}
-
-static int coarse_iterations(const struct sample *sample, double *out, struct error *err)
-{
-	return series_greatest(sample, "coarse_iterations", out, err);
 }
 
 static int cpu_seconds(const struct sample *sample, double *out, struct error *err)
@@ -93,11 +58,6 @@ static int speed_up(const struct sample *sample, double *out, struct error *err)
 	TRY(run_file_real(sample->partner, "cpu_seconds", &baseline, err));
 	*out = baseline / mine;
 	return 0;
-}
-
-static int residual(const struct sample *sample, double *out, struct error *err)
-{
-	return series_greatest(sample, "pressure_residual", out, err);
 }
 
 /* CPU time of the whole run per cell, layer and step, in ns. */
@@ -135,20 +95,20 @@ static int steps(const struct sample *sample, double *out, struct error *err)
 /* The final front, from the gate. */
 static int runout(const struct sample *sample, double *out, struct error *err)
 {
-	TRY(series_last(sample, "front_position", out, err));
+	TRY(metric_series_last(sample, out, err));
 	*out -= sample->config->initial.front;
 	return 0;
 }
 
-/* The row of `time` in profile_time. Profiles are stored at the very times that were asked for; the
- * tolerance is for times written in other units. */
-static int find_profile(struct run_file *file, double time, size_t *row, struct error *err)
+/* Profiles are stored at the very times that were asked for; the tolerance is for times written in other
+ * units. */
+int metric_profile_row(struct run_file *file, double time, size_t *row, struct error *err)
 {
 	struct dataset times = {0};
 
-	TRY(read_values(file, "profile_time", &times, err));
+	TRY(metric_read(file, "profile_time", &times, err));
 	*row = 0;
-	for (size_t i = 1; i < dataset_count(&times); i++)
+	for (size_t i = 1; i < metric_count(&times); i++)
 		if (fabs(times.values[i] - time) < fabs(times.values[*row] - time))
 			*row = i;
 	if (fabs(times.values[*row] - time) > 1e-9 * fmax(1, fabs(time)))
@@ -165,8 +125,8 @@ static int read_thickness(
 	size_t row;
 
 	*values = NULL;
-	TRY(find_profile(file, time, &row, err));
-	TRY(read_values(file, "h", &h, err));
+	TRY(metric_profile_row(file, time, &row, err));
+	TRY(metric_read(file, "h", &h, err));
 	if (!h.values || h.rank != 2 || row >= h.extent[0]) {
 		free(h.values);
 		(void)error_set(err, EX_DATAERR, "dataset 'h' is not profile_time by x");
@@ -223,27 +183,22 @@ static int stopping_time(const struct sample *sample, double *out, struct error 
 	size_t i;
 	int result = -1;
 
-	if (read_values(sample->file, "time", &time, err) ||
-		read_values(sample->file, "max_speed", &speed, err))
+	if (metric_read(sample->file, "time", &time, err) ||
+		metric_read(sample->file, "max_speed", &speed, err))
 		goto done;
-	i = dataset_count(&speed);
+	i = metric_count(&speed);
 	while (i > 0 && speed.values[i - 1] < sample->config->output.static_speed)
 		i--;
-	if (i == dataset_count(&speed)) {
+	if (i == metric_count(&speed)) {
 		error_set(err, EX_DATAERR, "it still flows at the end");
 		goto done;
 	}
-	*out = i < dataset_count(&time) ? time.values[i] : NAN;
+	*out = i < metric_count(&time) ? time.values[i] : NAN;
 	result = 0;
 done:
 	free(time.values);
 	free(speed.values);
 	return result;
-}
-
-static int final_thickness(const struct sample *sample, double *out, struct error *err)
-{
-	return series_last(sample, "max_thickness", out, err);
 }
 
 /* The greatest velocity of the front and when. At the release it jumps to the next cell, which is no flow. */
@@ -255,10 +210,10 @@ static int front_peak(
 	int result = -1;
 
 	*velocity = *when = NAN;
-	if (read_values(sample->file, "time", &time, err) ||
-		read_values(sample->file, "front_velocity", &front, err))
+	if (metric_read(sample->file, "time", &time, err) ||
+		metric_read(sample->file, "front_velocity", &front, err))
 		goto done;
-	for (size_t i = 0; i < dataset_count(&front) && i < dataset_count(&time); i++)
+	for (size_t i = 0; i < metric_count(&front) && i < metric_count(&time); i++)
 		if (time.values[i] >= settled && !(front.values[i] <= *velocity)) {
 			*velocity = front.values[i];
 			*when = time.values[i];
@@ -326,7 +281,7 @@ static int distance(const struct observed_line *line, const double *axis, const 
 /* The domain goes half a cell beyond the middles of its cells. */
 static double half_cell(const struct dataset *x)
 {
-	return dataset_count(x) > 1 ? 0.500001 * (x->values[1] - x->values[0]) : INFINITY;
+	return metric_count(x) > 1 ? 0.500001 * (x->values[1] - x->values[0]) : INFINITY;
 }
 
 /* P1 Figure 13, relative to what was observed above the erodible bed, as the differences of Table 9 are. */
@@ -340,8 +295,8 @@ static int l2_observed(const struct sample *sample, double *out, struct error *e
 
 	if (!observed_line(sample->observed, "h", sample->at, &line, err) &&
 		!read_thickness(sample->file, sample->at, &h, &cells, err) &&
-		!read_values(sample->file, "x", &x, err))
-		result = cells == dataset_count(&x)
+		!metric_read(sample->file, "x", &x, err))
+		result = cells == metric_count(&x)
 					 ? distance(&line, x.values, h, cells, half_cell(&x),
 						   sample->config->erodible_bed_thickness, out, err)
 					 : error_set(err, EX_DATAERR, "dataset 'h' is not as long as 'x'");
@@ -359,10 +314,10 @@ static int front_observed(const struct sample *sample, double *out, struct error
 	int result = -1;
 
 	if (!observed_line(sample->observed, "front_position", 0, &line, err) &&
-		!read_values(sample->file, "time", &time, err) &&
-		!read_values(sample->file, "front_position", &front, err))
-		result = dataset_count(&time) == dataset_count(&front)
-					 ? distance(&line, time.values, front.values, dataset_count(&time), 0,
+		!metric_read(sample->file, "time", &time, err) &&
+		!metric_read(sample->file, "front_position", &front, err))
+		result = metric_count(&time) == metric_count(&front)
+					 ? distance(&line, time.values, front.values, metric_count(&time), 0,
 						   sample->config->initial.front, out, err)
 					 : error_set(err, EX_DATAERR, "'front_position' is not as long as 'time'");
 	observed_line_clean(&line);
@@ -372,45 +327,109 @@ static int front_observed(const struct sample *sample, double *out, struct error
 }
 
 static const struct metric metrics[] = {
-	{"iterations", "iterations", "", 0, PARTNER_NONE, false, NULL, iterations,
+	{"iterations", "iterations", "", 0, PARTNER_NONE, false, NULL, metric_series_greatest,
+		"pressure_iterations",
 		"the greatest number of iterations of the pressure solver in a step"},
-	{"coarse-iterations", "coarse iterations", "", 0, PARTNER_NONE, false, NULL, coarse_iterations,
+	{"coarse-iterations", "coarse iterations", "", 0, PARTNER_NONE, false, NULL,
+		metric_series_greatest, "coarse_iterations",
 		"the same of the coarse system behind the first guess"},
-	{"cpu-seconds", "CPU", "s", -1, PARTNER_NONE, false, NULL, cpu_seconds,
+	{"cpu-seconds", "CPU", "s", -1, PARTNER_NONE, false, NULL, cpu_seconds, NULL,
 		"CPU time of the whole run, all attempts"},
 	{"ns-per-unknown", "CPU", "ns/cell/layer/step", -1, PARTNER_NONE, false, NULL, ns_per_unknown,
-		"CPU time of the whole run over cells, layers and steps"},
-	{"residual", "residual", "", -1, PARTNER_NONE, false, NULL, residual,
+		NULL, "CPU time of the whole run over cells, layers and steps"},
+	{"residual", "residual", "", -1, PARTNER_NONE, false, NULL, metric_series_greatest,
+		"pressure_residual",
 		"the greatest true relative residual of the pressure system in a step"},
-	{"speed-up", "speed-up", "", 2, PARTNER_BASELINE, false, NULL, speed_up,
+	{"speed-up", "speed-up", "", 2, PARTNER_BASELINE, false, NULL, speed_up, NULL,
 		"CPU time of the `baseline` run over that of this one"},
-	{"step-share-transport", "step 1", "%", 1, PARTNER_NONE, false, NULL, share_transport,
+	{"step-share-transport", "step 1", "%", 1, PARTNER_NONE, false, NULL, share_transport, NULL,
 		"share of step 1, transport, in the CPU time"},
-	{"step-share-friction", "step 2", "%", 1, PARTNER_NONE, false, NULL, share_friction,
+	{"step-share-friction", "step 2", "%", 1, PARTNER_NONE, false, NULL, share_friction, NULL,
 		"share of step 2, friction"},
-	{"step-share-pressure", "step 3", "%", 1, PARTNER_NONE, false, NULL, share_pressure,
+	{"step-share-pressure", "step 3", "%", 1, PARTNER_NONE, false, NULL, share_pressure, NULL,
 		"share of step 3, non-hydrostatic pressure"},
-	{"steps", "steps", "", 0, PARTNER_NONE, false, NULL, steps, "number of time steps"},
-	{"runout", "runout", "m", 3, PARTNER_NONE, false, NULL, runout,
+	{"steps", "steps", "", 0, PARTNER_NONE, false, NULL, steps, NULL, "number of time steps"},
+	{"runout", "runout", "m", 3, PARTNER_NONE, false, NULL, runout, "front_position",
 		"final position of the front, from the gate"},
-	{"stopping-time", "stopping time", "s", 3, PARTNER_NONE, false, NULL, stopping_time,
+	{"stopping-time", "stopping time", "s", 3, PARTNER_NONE, false, NULL, stopping_time, NULL,
 		"the last time at which some layer is faster than output.static_speed"},
-	{"final-thickness", "final thickness", "m", 4, PARTNER_NONE, false, NULL, final_thickness,
-		"the greatest thickness at the end"},
-	{"front-velocity", "fastest front", "m/s", 3, PARTNER_NONE, false, NULL, front_velocity,
+	{"final-thickness", "final thickness", "m", 4, PARTNER_NONE, false, NULL, metric_series_last,
+		"max_thickness", "the greatest thickness at the end"},
+	{"front-velocity", "fastest front", "m/s", 3, PARTNER_NONE, false, NULL, front_velocity, NULL,
 		"the greatest velocity of the front after its first 0.04 s"},
 	{"front-velocity-time", "fastest at", "s", 3, PARTNER_NONE, false, NULL, front_velocity_time,
-		"when the front has that velocity"},
-	{"l2-observed", "l2 from observed", "%", 2, PARTNER_NONE, true, "h", l2_observed,
+		NULL, "when the front has that velocity"},
+	{"l2-observed", "l2 from observed", "%", 2, PARTNER_NONE, true, "h", l2_observed, NULL,
 		"difference in thickness from observations at a profile time, as l2-difference"},
 	{"front-observed", "front from observed", "%", 2, PARTNER_NONE, false, "front_position",
-		front_observed,
+		front_observed, NULL,
 		"difference of the front from observations over time, relative to its way from the gate"},
-	{"l1-difference", "l1", "%", 2, PARTNER_REFERENCE, true, NULL, l1_difference,
+	{"l1-difference", "l1", "%", 2, PARTNER_REFERENCE, true, NULL, l1_difference, NULL,
 		"difference in thickness from the `reference` run, over the mass above the bed: l1 norm, "
 		"at a profile time"},
-	{"l2-difference", "l2", "%", 2, PARTNER_REFERENCE, true, NULL, l2_difference,
+	{"l2-difference", "l2", "%", 2, PARTNER_REFERENCE, true, NULL, l2_difference, NULL,
 		"the same in the l2 norm"},
+	{"velocity-l1", "v L1", "", -1, PARTNER_NONE, true, NULL, metric_steady_l1, "v",
+		"error of the velocity profile against the exact steady flow, L1, at a profile time"},
+	{"velocity-l2", "v L2", "", -1, PARTNER_NONE, true, NULL, metric_steady_l2, "v",
+		"the same in L2"},
+	{"velocity-linf", "v Linf", "", -1, PARTNER_NONE, true, NULL, metric_steady_linf, "v",
+		"the same, the greatest"},
+	{"velocity-l1-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_l1_order, "v",
+		"its order, from the row before"},
+	{"velocity-l2-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_l2_order, "v",
+		"its order, from the row before"},
+	{"velocity-linf-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_linf_order,
+		"v", "its order, from the row before"},
+	{"fraction-l1", "phi L1", "", -1, PARTNER_NONE, true, NULL, metric_steady_l1, "phi",
+		"error of the solid fraction against the exact steady flow, L1, at a profile time"},
+	{"fraction-l2", "phi L2", "", -1, PARTNER_NONE, true, NULL, metric_steady_l2, "phi",
+		"the same in L2"},
+	{"fraction-linf", "phi Linf", "", -1, PARTNER_NONE, true, NULL, metric_steady_linf, "phi",
+		"the same, the greatest"},
+	{"fraction-l1-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_l1_order,
+		"phi", "its order, from the row before"},
+	{"fraction-l2-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_l2_order,
+		"phi", "its order, from the row before"},
+	{"fraction-linf-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_linf_order,
+		"phi", "its order, from the row before"},
+	{"max-velocity", "v max", "m/s", -1, PARTNER_NONE, true, NULL, metric_layer_max, "v",
+		"greatest layer velocity at a profile time"},
+	{"final-max-speed", "v max", "m/s", -1, PARTNER_NONE, false, NULL, metric_series_last,
+		"max_speed", "greatest layer velocity at the end"},
+	{"final-mean-speed", "v mean", "m/s", -1, PARTNER_NONE, false, NULL, metric_series_last,
+		"mean_speed", "mean velocity at the end"},
+	{"final-fraction", "phi mean", "", 4, PARTNER_NONE, false, NULL, metric_series_last, "fraction",
+		"mean solid fraction at the end"},
+	{"final-height", "h", "m", 6, PARTNER_NONE, false, NULL, metric_series_last, "height",
+		"height at the end"},
+	{"final-solid-mass", "solid mass", "kg/m2", 3, PARTNER_NONE, false, NULL, metric_series_last,
+		"solid_mass", "solid mass at the end"},
+	{"final-bottom-pressure", "p bottom", "Pa", 2, PARTNER_NONE, false, NULL, metric_series_last,
+		"bottom_pressure", "solid pressure at the bottom at the end"},
+	{"greatest-excess-pressure", "greatest p_e", "Pa", 2, PARTNER_NONE, false, NULL,
+		metric_series_greatest, "excess_pressure", "greatest excess pore pressure"},
+	{"least-excess-pressure", "least p_e", "Pa", 2, PARTNER_NONE, false, NULL, metric_series_least,
+		"excess_pressure", "least excess pore pressure"},
+	{"pressure-error", "p off by", "", -1, PARTNER_NONE, false, NULL, metric_series_greatest,
+		"pressure_error", "greatest relative error of the pressure root against its exact value"},
+	{"final-pressure-error", "p off by, at end", "", -1, PARTNER_NONE, false, NULL,
+		metric_series_last, "pressure_error", "the same at the end"},
+	{"solid-mass-drift", "mass drift", "1e-12", 4, PARTNER_NONE, false, NULL, metric_series_drift,
+		"solid_mass", "greatest relative change of the solid mass, in 1e-12"},
+	{"height-drift", "h drift", "1e-12", 4, PARTNER_NONE, false, NULL, metric_series_drift,
+		"height", "greatest relative change of the height, in 1e-12"},
+	{"half-speed-time", "v max/2 at", "s", -1, PARTNER_NONE, false, NULL, metric_series_half_time,
+		"max_speed", "when the greatest velocity has reached half of its end value"},
+	{"transfer-sign-change", "G_f changes sign at", "s", -1, PARTNER_NONE, false, NULL,
+		metric_series_sign_change, "fluid_transfer",
+		"when the fluid transfer at the top changes its sign"},
+	{"speed-difference", "v max apart", "%", 3, PARTNER_REFERENCE, false, NULL,
+		metric_series_difference, "max_speed",
+		"greatest difference of the greatest velocity from the `reference` run, over its greatest "
+		"value"},
+	{"newton-iterations", "Newton iterations", "", 0, PARTNER_NONE, false, NULL, metric_series_last,
+		"newton_iterations", "Newton iterations of the whole run"},
 };
 
 const struct metric *metric_find(const char *name, const char **nearest)

@@ -11,7 +11,14 @@
 #include "talus/run_file.h"
 #include "talus/text.h"
 
-enum metric_partner { PARTNER_NONE, PARTNER_BASELINE, PARTNER_REFERENCE };
+/* PARTNER_PREVIOUS: the run of the row before, in the same column; the first row has none. */
+enum metric_partner {
+	PARTNER_NONE,
+	PARTNER_BASELINE,
+	PARTNER_REFERENCE,
+	PARTNER_PREVIOUS,
+	PARTNERS,
+};
 
 struct sample {
 	struct run_file *file;
@@ -19,6 +26,7 @@ struct sample {
 	struct run_file *partner;        /* of the kind the metric asks for, else NULL */
 	double at;                       /* profile time, s */
 	const struct observed *observed; /* that have the dataset the metric observes, else NULL */
+	const struct metric *metric;
 };
 
 struct metric {
@@ -31,6 +39,7 @@ struct metric {
 	const char *observes; /* dataset that is compared with observations, NULL: none */
 	/* EX_DATAERR where the file lacks what is needed. */
 	int (*value)(const struct sample *sample, double *out, struct error *err);
+	const char *dataset; /* that `value` reads, where it could read others too; NULL */
 	const char *meaning; /* for the reference */
 };
 

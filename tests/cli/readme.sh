@@ -1,4 +1,4 @@
-# Everything that README.md shows to be typed about one run and its file works as it stands there.
+# Everything that README.md shows to be typed about runs and their files works as it stands there.
 readme=$TALUS_ROOT/README.md
 
 # the code of the n-th block in that language
@@ -26,6 +26,11 @@ tail -n 1 run.out
 commands 'Figures' >figures.sh
 grep -c . figures.sh
 bash figures.sh 2>&1 | grep figures/
+commands 'Grains in a fluid' >fluid.sh
+grep -c . fluid.sh
+bash fluid.sh >fluid.out 2>&1
+echo "exit $?"
+tail -n 1 fluid.out
 block python 1 >read.py
 grep -c . read.py
 /usr/bin/python3 read.py | sed 's/\([0-9]\.[0-9]\)[0-9]*/\1/g'

@@ -16,6 +16,9 @@
 #include "talus/config.h"
 
 #define REQUIRED "slope: 22 deg\nerodible_bed_thickness: 1.82 mm\nlayers: 10\n"
+#define IMMERSED                                                                                   \
+	"model: immersed\nslope: 22 deg\nlayers: 10\ninitial: {solid_fraction: 0.592}\n"               \
+	"fluid: {density: 1026 kg/m3, viscosity: 9.8e-3 Pa s}\n"
 
 static void parse(struct config *config, const char *text)
 {
@@ -273,31 +276,80 @@ static void a_printed_config_reads_back_to_the_same_bytes(void **state)
 	text_clean(&text);
 }
 
-/* Every key can be set to what config_value prints of it, and the config stays the same. */
-static void every_key_can_be_set(void **state)
+/* Every key that the model has can be set to what config_value prints of it, and the config stays the
+ * same; every other is refused, by the text as by config_value. */
+static void check_keys(const char *required)
 {
 	struct config config, again;
 
-	(void)state;
-	parse(&config, REQUIRED "output: {profiles_at: [0.32 s]}\n");
+	parse(&config, required);
 	for (size_t i = 0; i < config_table.count; i++) {
-		const char *key = config_table.fields[i].name;
-		struct text setting = {0}, printed = {0};
-		const char *list[2];
-		struct error err = {0};
+		const struct field *field = &config_table.fields[i];
+		struct text setting = {0};
+		const char *list[1];
+		struct error err = {0}, refusal = {0};
 
-		if (config_table.fields[i].kind == FIELD_GROUP)
+		if (field->kind == FIELD_GROUP)
 			continue;
-		text_addf(&setting, "%s=", key);
-		assert_int_equal(config_value(&config, key, &setting, &err), 0);
-		list[0] = "output.profiles_at=[0.32]";
-		list[1] = text_string(&setting);
-		if (config_parse(&again, REQUIRED, strlen(REQUIRED), "a.yaml", list, 2, &err) != 0)
-			fail_msg("%s: %s", list[1], err.text);
-		assert_memory_equal(&config, &again, sizeof config);
+		text_addf(&setting, "%s=", field->name);
+		if (field_applies(&config_table, field, &config)) {
+			assert_int_equal(config_value(&config, field->name, &setting, &err), 0);
+			list[0] = text_string(&setting);
+			if (config_parse(&again, required, strlen(required), "a.yaml", list, 1, &err) != 0)
+				fail_msg("%s: %s", list[0], err.text);
+			assert_memory_equal(&config, &again, sizeof config);
+		} else {
+			text_add(&setting, field->value);
+			list[0] = text_string(&setting);
+			assert_int_equal(config_value(&config, field->name, &setting, &refusal), -1);
+			assert_int_equal(
+				config_parse(&again, required, strlen(required), "a.yaml", list, 1, &err), -1);
+			assert_int_equal(err.code, EX_DATAERR);
+			assert_non_null(strstr(err.text, "is a key of model"));
+			assert_string_equal(err.text, refusal.text);
+		}
 		text_clean(&setting);
-		text_clean(&printed);
 	}
+}
+
+static void every_key_can_be_set_where_it_applies(void **state)
+{
+	(void)state;
+	check_keys(REQUIRED "output: {profiles_at: [0.32 s]}\n");
+	check_keys(IMMERSED);
+}
+
+static void a_key_of_another_model_is_refused_at_its_place(void **state)
+{
+	static const char text[] = IMMERSED "domain: {cells: 20}\n";
+	struct config config;
+	struct error err = {0};
+
+	(void)state;
+	assert_int_equal(config_parse(&config, text, strlen(text), "a.yaml", NULL, 0, &err), -1);
+	assert_string_equal(
+		err.text, "'domain.cells' is a key of model: dry, and model is immersed here");
+	assert_int_equal(err.line, 6);
+	assert_int_equal(err.column, 10);
+}
+
+/* The hash is that of the printed config: keys of another model must not be in it. */
+static void only_keys_that_apply_are_printed(void **state)
+{
+	struct config config;
+	struct text dry = {0}, immersed = {0};
+
+	(void)state;
+	parse(&config, REQUIRED);
+	config_print(&config, &dry);
+	parse(&config, IMMERSED);
+	config_print(&config, &immersed);
+	assert_null(strstr(text_string(&dry), "fluid"));
+	assert_non_null(strstr(text_string(&dry), "domain:\n"));
+	assert_non_null(strstr(text_string(&immersed), "fluid:\n"));
+	assert_null(strstr(text_string(&immersed), "domain"));
+	text_clean(&dry);
+	text_clean(&immersed);
 }
 
 static void values_are_asked_by_key(void **state)
@@ -374,7 +426,7 @@ static void differences_name_the_keys(void **state)
 	assert_string_equal(text_string(&text), "");
 }
 
-static void the_reference_config_in_the_tree_is_up_to_date_and_reads_as_the_defaults(void **state)
+static void check_reference(const char *model, const char *name, const char *required)
 {
 	struct config config, defaults;
 	struct text text = {0};
@@ -383,35 +435,45 @@ static void the_reference_config_in_the_tree_is_up_to_date_and_reads_as_the_defa
 	size_t length;
 	FILE *file;
 
-	(void)state;
-	path_in_tree("reference.yaml", path);
+	path_in_tree(name, path);
 	file = fopen(path, "r");
 	assert_non_null(file);
 	length = fread(stored, 1, sizeof stored - 1, file);
 	stored[length] = '\0';
 	assert_int_equal(fclose(file), 0);
-	config_print_reference(&text);
+	assert_int_equal(config_print_reference(model, &text, &err), 0);
 	assert_string_equal(stored, text_string(&text));
 	text_clean(&text);
 	assert_int_equal(config_read(&config, path, NULL, 0, &err), 0);
-	parse(&defaults, REQUIRED);
+	parse(&defaults, required);
 	assert_memory_equal(&config, &defaults, sizeof config);
 }
 
-/* The annotated config shows every key of the table, with a comment or below a commented group. */
-static void the_annotated_config_has_every_key(void **state)
+static void the_reference_configs_in_the_tree_are_up_to_date_and_read_as_the_defaults(void **state)
 {
+	(void)state;
+	check_reference("dry", "reference.yaml", REQUIRED);
+	check_reference("immersed", "reference-immersed.yaml", IMMERSED);
+}
+
+/* The annotated config of a model shows every key that it has, with a comment or below a commented
+ * group. */
+static void check_annotated(const char *name)
+{
+	struct config config;
 	struct node root;
 	struct error err = {0};
 	char path[4096], key[64];
 
-	(void)state;
-	path_in_tree("granular-collapse.yaml", path);
+	path_in_tree(name, path);
+	assert_int_equal(config_read(&config, path, NULL, 0, &err), 0);
 	assert_int_equal(yaml_load(&root, path, &err), 0);
 	for (size_t i = 0; i < config_table.count; i++) {
 		const struct node *node = &root;
 		char *part, *rest = key;
 
+		if (!field_applies(&config_table, &config_table.fields[i], &config))
+			continue;
 		(void)snprintf(key, sizeof key, "%s", config_table.fields[i].name);
 		while (node && (part = strsep(&rest, ".")) != NULL)
 			node = node_find(node, part);
@@ -419,6 +481,13 @@ static void the_annotated_config_has_every_key(void **state)
 			fail_msg("%s is not in %s", config_table.fields[i].name, path);
 	}
 	node_clean(&root);
+}
+
+static void the_annotated_configs_have_every_key(void **state)
+{
+	(void)state;
+	check_annotated("granular-collapse.yaml");
+	check_annotated("immersed-low-viscosity.yaml");
 }
 
 /* A campaign parses thousands. */
@@ -449,12 +518,14 @@ int main(void)
 		cmocka_unit_test(a_required_key_may_come_from_a_setting),
 		cmocka_unit_test(a_bad_setting_cites_itself),
 		cmocka_unit_test(a_printed_config_reads_back_to_the_same_bytes),
-		cmocka_unit_test(every_key_can_be_set),
+		cmocka_unit_test(every_key_can_be_set_where_it_applies),
+		cmocka_unit_test(a_key_of_another_model_is_refused_at_its_place),
+		cmocka_unit_test(only_keys_that_apply_are_printed),
 		cmocka_unit_test(values_are_asked_by_key),
 		cmocka_unit_test(the_hash_follows_values_not_spellings),
 		cmocka_unit_test(differences_name_the_keys),
-		cmocka_unit_test(the_reference_config_in_the_tree_is_up_to_date_and_reads_as_the_defaults),
-		cmocka_unit_test(the_annotated_config_has_every_key),
+		cmocka_unit_test(the_reference_configs_in_the_tree_are_up_to_date_and_read_as_the_defaults),
+		cmocka_unit_test(the_annotated_configs_have_every_key),
 		cmocka_unit_test(parsing_takes_well_under_a_millisecond),
 	};
 

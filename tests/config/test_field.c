@@ -37,7 +37,7 @@ static const struct field fields[] = {
 		"times in the kiln"},
 };
 
-static const struct field_table table = {fields, sizeof fields / sizeof *fields};
+static const struct field_table table = {fields, sizeof fields / sizeof *fields, NULL};
 
 static int read_pot(struct pot *pot, const char *text, struct error *err)
 {
@@ -260,7 +260,7 @@ static void the_reference_describes_every_row(void **state)
 	struct text text = {0};
 
 	(void)state;
-	field_print_reference(&table, &text);
+	field_print_reference(&table, NULL, &text);
 	assert_string_equal(text_string(&text),
 		"\n# of the pot\n"
 		"# a length (m, km, cm, mm or um), above 0 and at most 1 m; required, here an example\n"

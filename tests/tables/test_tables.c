@@ -69,7 +69,9 @@ static struct experiment read_experiment(const char *text)
 struct content {
 	double cpu_seconds;
 	double iterations[3];
-	double h[2][4]; /* at 0.1 s and 0.3 s */
+	double h[2][4];     /* at 0.1 s and 0.3 s */
+	double layer_error; /* of v in every layer, where v_steady is 1 */
+	double speed;       /* what max_speed is multiplied by */
 	const char *host, *compiler;
 	enum run_status status;
 };
@@ -123,6 +125,36 @@ static void add_content(struct image *image, const struct content *content)
 							 .values = content->h[0]});
 }
 
+/* Profiles over the layers, of a model without x, and its series. */
+static void add_layers(struct image *image, const struct content *content, size_t layers)
+{
+	static const double transfer[] = {-1, 2, 2}, mass[] = {2, 2 + 0x1p-37, 2};
+	const double speed[] = {0, content->speed, 4 * content->speed};
+	double layer[8], interface[9], v[16], steady[16];
+
+	for (size_t a = 0; a <= layers; a++)
+		interface[a] = (double)a / (double)layers;
+	for (size_t a = 0; a < layers; a++)
+		layer[a] = ((double)a + 0.5) / (double)layers;
+	for (size_t k = 0; k < 2 * layers; k++) {
+		steady[k] = 1;
+		v[k] = 1 + (k % 2 ? -1 : 1) * content->layer_error;
+	}
+	add_scale(image, "layer", layers, layer);
+	add_scale(image, "interface", layers + 1, interface);
+	add_series(image, "max_speed", speed);
+	add_series(image, "fluid_transfer", transfer);
+	add_series(image, "solid_mass", mass);
+	for (int k = 0; k < 2; k++)
+		image_dataset(image, &(struct image_data){.path = k ? "v" : "v_steady",
+								 .units = "m s-1",
+								 .long_name = "v",
+								 .rank = 2,
+								 .extent = {2, layers},
+								 .scales = {"profile_time", "layer"},
+								 .values = k ? v : steady});
+}
+
 static void make_run(const struct experiment_run *run, const struct content *content)
 {
 	struct run_summary summary = {.status = content->status, .step = 7, .time = 0.3};
@@ -135,6 +167,7 @@ static void make_run(const struct experiment_run *run, const struct content *con
 	assert_int_equal(file_make_folders(run->folder, &err), 0);
 	assert_int_equal(image_create(4096, &image, &err), 0);
 	add_content(image, content);
+	add_layers(image, content, (size_t)run->config.layers);
 	assert_int_equal(image_finish(image, TRAILER_SIZE, &bytes, &size, &err), 0);
 	trailer_write(&summary, bytes, size, trailer);
 	assert_int_equal(file_replace(&(struct file_place){.folder = run->folder, .name = "run.h5"},
@@ -294,6 +327,58 @@ static void differences_are_relative_to_the_mass_above_the_bed(void **state)
 		"8           0.00      0.00      0.00      0.00\n"
 		"4          28.57     71.43     28.28    100.00\n" NOTES);
 	experiment_clean(&e);
+}
+
+/* An order needs a row before: the first one is blank, and nothing is missing. */
+static void errors_against_steady_profiles_have_orders_from_row_to_row(void **state)
+{
+	struct experiment experiment = read_experiment(
+		"base: base.yaml\nruns: [{layers: [2, 4, 8]}]\n"
+		"tables: [{name: t, rows: layers, metric: [velocity-l1, velocity-l1-order, velocity-linf, "
+		"velocity-l2-order]}]\n");
+	const double errors[] = {0x1p-4, 0x1p-7, 0x1p-9};
+
+	(void)state;
+	for (size_t i = 0; i < 3; i++) {
+		struct content content = complete(1, 1);
+
+		content.layer_error = errors[i];
+		make_run(&experiment.runs[i], &content);
+	}
+	assert_table(&experiment, "text",
+		"t\n"
+		"\n"
+		"layers     v L1  order   v Linf  order\n"
+		"--------------------------------------\n"
+		"2        0.0625          0.0625\n"
+		"4       0.00781   3.00  0.00781   3.00\n"
+		"8       0.00195   2.00  0.00195   2.00\n" NOTES);
+	experiment_clean(&experiment);
+}
+
+static void numbers_of_series_are_those_of_the_whole_run(void **state)
+{
+	struct experiment experiment = read_experiment(
+		"base: base.yaml\nruns: [{layers: [2, 4]}]\n"
+		"tables: [{name: t, rows: layers, reference: {layers: 2}, metric: [final-max-speed, "
+		"half-speed-time, transfer-sign-change, solid-mass-drift, speed-difference]}]\n");
+	struct content first = complete(1, 1), second = complete(1, 1);
+
+	(void)state;
+	first.speed = 1;
+	second.speed = 1.25;
+	make_run(&experiment.runs[0], &first);
+	make_run(&experiment.runs[1], &second);
+	/* times 0, 0.15, 0.3: half of 0, 1, 4 at 0.2; -1, 2 passes 0 at 0.05; 4 and 5 are 25 % apart */
+	assert_table(&experiment, "text",
+		"t\n"
+		"\n"
+		"layers  v max m/s  v max/2 at s  G_f changes sign at s  mass drift 1e-12  v max apart %\n"
+		"---------------------------------------------------------------------------------------\n"
+		"2            4.00         0.200                 0.0500            3.6380          0.000\n"
+		"4            5.00         0.200                 0.0500            3.6380         "
+		"25.000\n" NOTES);
+	experiment_clean(&experiment);
 }
 
 static void an_unfinished_run_is_missing_and_named(void **state)
@@ -558,6 +643,8 @@ int main(void)
 		TEST(repeats_make_a_median_and_half_their_range),
 		TEST(a_metric_is_what_its_run_file_says),
 		TEST(differences_are_relative_to_the_mass_above_the_bed),
+		TEST(errors_against_steady_profiles_have_orders_from_row_to_row),
+		TEST(numbers_of_series_are_those_of_the_whole_run),
 		TEST(an_unfinished_run_is_missing_and_named),
 		TEST(a_cell_keeps_the_median_of_the_repeats_that_are_there),
 		TEST(other_builds_and_machines_are_flagged_where_times_compare),

@@ -1,0 +1,34 @@
+/* Metrics that live in files of their own, and what all share. */
+#ifndef TALUS_METRIC_PARTS_H
+#define TALUS_METRIC_PARTS_H
+
+#include "tables/metric.h"
+
+/* A dataset that holds at least one value; its values are the caller's. EX_DATAERR. */
+int metric_read(struct run_file *file, const char *name, struct dataset *out, struct error *err);
+
+size_t metric_count(const struct dataset *data);
+
+/* The row of `time` in profile_time. EX_DATAERR where there is none. */
+int metric_profile_row(struct run_file *file, double time, size_t *row, struct error *err);
+
+/* metric_steady.c: a profile over the layers against the one stored beside it as NAME_steady, relative,
+ * and how fast that falls with the number of layers. */
+int metric_steady_l1(const struct sample *sample, double *out, struct error *err);
+int metric_steady_l2(const struct sample *sample, double *out, struct error *err);
+int metric_steady_linf(const struct sample *sample, double *out, struct error *err);
+int metric_steady_l1_order(const struct sample *sample, double *out, struct error *err);
+int metric_steady_l2_order(const struct sample *sample, double *out, struct error *err);
+int metric_steady_linf_order(const struct sample *sample, double *out, struct error *err);
+int metric_layer_max(const struct sample *sample, double *out, struct error *err);
+
+/* metric_series.c: numbers of a series. */
+int metric_series_last(const struct sample *sample, double *out, struct error *err);
+int metric_series_greatest(const struct sample *sample, double *out, struct error *err);
+int metric_series_least(const struct sample *sample, double *out, struct error *err);
+int metric_series_drift(const struct sample *sample, double *out, struct error *err);
+int metric_series_half_time(const struct sample *sample, double *out, struct error *err);
+int metric_series_sign_change(const struct sample *sample, double *out, struct error *err);
+int metric_series_difference(const struct sample *sample, double *out, struct error *err);
+
+#endif
