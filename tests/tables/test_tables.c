@@ -131,7 +131,6 @@ static void add_layers(struct image *image, const struct content *content, size_
 	double layer[32], interface[33], v[64], steady[64];
 
 	assert_true(layers <= 32);
-
 	for (size_t a = 0; a <= layers; a++)
 		interface[a] = (double)a / (double)layers;
 	for (size_t a = 0; a < layers; a++)
