@@ -130,8 +130,9 @@ static void add_layers(struct image *image, const struct content *content, size_
 {
 	static const double transfer[] = {-1, 2, 2}, mass[] = {2, 2 + 0x1p-37, 2};
 	const double speed[] = {0, content->speed, 4 * content->speed};
-	double layer[8], interface[9], v[16], steady[16];
+	double layer[32], interface[33], v[64], steady[64];
 
+	assert_true(layers <= 32);
 	for (size_t a = 0; a <= layers; a++)
 		interface[a] = (double)a / (double)layers;
 	for (size_t a = 0; a < layers; a++)
