@@ -204,7 +204,7 @@ static const struct field fields[] = {
 	INTEGER(checkpoint.every_steps, FIELD_PASSIVE, "0", "[0, inf)",
 		"steps between checkpoints; 0: off"),
 
-	INTEGER(threads, FIELD_PASSIVE, "1", "[1, 256]",
+	INTEGER(threads, DRY | FIELD_PASSIVE, "1", "[1, 256]",
 		"processors that share one run; does not change its numbers"),
 };
 /* clang-format on */

@@ -60,13 +60,18 @@ static int speed_up(const struct sample *sample, double *out, struct error *err)
 	return 0;
 }
 
-/* CPU time of the whole run per cell, layer and step, in ns. */
+/* CPU time of the whole run per cell, layer and step, in ns; a model without x is one cell. */
 static int ns_per_unknown(const struct sample *sample, double *out, struct error *err)
 {
-	double cells = sample->config->domain.cells, layers = sample->config->layers;
+	struct dataset x = {0};
+	struct error none = {0};
+	double cells = 1;
 
 	TRY(run_file_real(sample->file, "cpu_seconds", out, err));
-	*out *= 1e9 / (cells * layers * (double)run_file_summary(sample->file)->step);
+	if (run_file_dataset(sample->file, "x", &x, &none) == 0 && metric_count(&x))
+		cells = (double)metric_count(&x);
+	free(x.values);
+	*out *= 1e9 / (cells * sample->config->layers * (double)run_file_summary(sample->file)->step);
 	return 0;
 }
 

@@ -297,8 +297,8 @@ static void a_metric_is_what_its_run_file_says(void **state)
 		"\n"
 		"slope                   steps  runout m  step 3 %  CPU ns/cell/layer/step  residual\n"
 		"-----------------------------------------------------------------------------------\n"
-		"0.3839724354387525 rad      7     1.250      50.0                53571429   "
-		"3.4e-09\n" NOTES);
+		"0.3839724354387525 rad      7     1.250      50.0                53571429  "
+		"3.40e-09\n" NOTES);
 	experiment_clean(&e);
 }
 
