@@ -32,8 +32,7 @@ static const struct pass {
 	{"conjugate gradients: begin, factor, finish", 14, 1, 104, false},
 	{"residual, to modes", 4, 1, 28, true},
 	{"tridiagonal systems of the modes", 7, 0, 28, true},
-	{"to layers, direction, x", 5, 1, 44, true},
-	{"product", 25, 0, 16, true},
+	{"to layers, direction, x, product", 30, 1, 44, true},
 };
 
 enum { REPEATS = 7 };

@@ -16,10 +16,10 @@ experiments=("$root/experiments/solvers.yaml" "$root/tests/bench/solvers-layers.
 	"$root/tests/bench/solvers-cells.yaml")
 
 # The ratio of the cost of a step for twice as many layers or cells, from a table in CSV.
-growth() # EXPERIMENT FOLDER COUNT
+growth() # EXPERIMENT FOLDER WHAT COUNT
 {
 	echo
-	echo "| method | $3 | cost of a step, for each doubling |"
+	echo "| $3 | $4 | cost of a step, for each doubling |"
 	echo '| :-- | --: | --: |'
 	talus-tables "$1" -o "$2" --format csv | awk -F, '
 		NR == 1 { gsub(/"[^"]*"/, "spread"); for (i = 1; i <= NF; i++) at[$i] = i; next }
@@ -43,8 +43,8 @@ done
 		echo
 		talus-tables "$experiment" -o "$name" --format markdown
 		case $name in
-		solvers-layers) growth "$experiment" "$name" layers ;;
-		solvers-cells) growth "$experiment" "$name" cells ;;
+		solvers-layers) growth "$experiment" "$name" method layers ;;
+		solvers-cells) growth "$experiment" "$name" shape cells ;;
 		esac
 	done
 	echo
