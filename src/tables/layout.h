@@ -28,13 +28,13 @@ struct measure {
 };
 
 enum { LAYOUT_NOWHERE = -1 };
-#define LAYOUT_ALONE SIZE_MAX /* instead of a run */
+#define LAYOUT_ALONE SIZE_MAX /* in the place of a run: there is none */
 
 /* The place of a run. */
 struct place {
 	long row, column;         /* LAYOUT_NOWHERE: not in this table */
 	size_t partner[PARTNERS]; /* by enum metric_partner: index of the run it is compared with */
-	size_t previous;          /* of the row before; LAYOUT_ALONE in the first one */
+	size_t previous;          /* run of the row before in the same column, or LAYOUT_ALONE */
 };
 
 struct layout {

@@ -375,9 +375,9 @@ static const struct metric metrics[] = {
 	{"l2-difference", "l2", "%", 2, PARTNER_REFERENCE, true, NULL, l2_difference, NULL,
 		"the same in the l2 norm"},
 	{"h-l1", "h L1", "m2", -1, PARTNER_REFERENCE, true, NULL, metric_reference_l1, "h",
-		"difference in thickness from the `reference` run averaged over the cells of this one, L1 "
-		"as "
-		"P1 (35), at a profile time"},
+		"difference in thickness from the `reference` run, which is averaged over the cells of "
+		"this "
+		"one: L1 as P1 (35), at a profile time"},
 	{"h-l1-order", "order", "", 2, PARTNER_REFERENCE_PREVIOUS, true, NULL, metric_reference_l1, "h",
 		"its order, from the row before"},
 	{"u-l1", "u L1", "m3/s", -1, PARTNER_REFERENCE, true, NULL, metric_reference_l1, "u",
