@@ -35,7 +35,7 @@ static struct table_cell gather(
 
 		if (layout->places[i].row != row || layout->places[i].column != column)
 			continue;
-		asked |= layout->places[i].partner[layout->measures[m].metric->partner] != LAYOUT_ALONE;
+		asked |= layout_asks(layout, i, layout->measures[m].metric);
 		if (!isnan(value))
 			samples[count++] = value;
 	}

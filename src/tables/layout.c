@@ -215,13 +215,25 @@ static void find_previous(struct layout *layout)
 	for (size_t i = 0; i < experiment->run_count; i++) {
 		struct place *mine = &layout->places[i];
 
-		mine->partner[PARTNER_PREVIOUS] = LAYOUT_ALONE;
+		mine->previous = LAYOUT_ALONE;
 		for (size_t k = 0; mine->row > 0 && k < experiment->run_count; k++)
 			if (layout->places[k].row == mine->row - 1 &&
 				layout->places[k].column == mine->column &&
 				experiment->runs[k].repeat == experiment->runs[i].repeat)
-				mine->partner[PARTNER_PREVIOUS] = k;
+				mine->previous = k;
 	}
+}
+
+bool layout_asks(const struct layout *layout, size_t run, const struct metric *metric)
+{
+	const struct place *place = &layout->places[run];
+	size_t reference = place->partner[PARTNER_REFERENCE];
+
+	if (!metric_is_order(metric))
+		return true;
+	return place->previous != LAYOUT_ALONE &&
+		   (metric_partner(metric) != PARTNER_REFERENCE ||
+			   (reference != run && reference != place->previous));
 }
 
 static int pair_runs(struct layout *layout, struct error *err)
@@ -229,15 +241,17 @@ static int pair_runs(struct layout *layout, struct error *err)
 	static const char *const nouns[] = {"", "baseline", "reference"};
 	const struct setting_list *changes[] = {
 		NULL, &layout->wanted->baseline, &layout->wanted->reference};
-	bool needed[PARTNERS] = {false};
+	bool needed[PARTNERS] = {false}, ordered = false;
 
 	for (size_t i = 0; i < layout->measure_count; i++) {
 		const struct metric *metric = layout->measures[i].metric;
 
-		if (metric)
-			needed[metric->partner] = true;
+		if (metric) {
+			needed[metric_partner(metric)] = true;
+			ordered |= metric_is_order(metric);
+		}
 	}
-	if (needed[PARTNER_PREVIOUS])
+	if (ordered)
 		find_previous(layout);
 	for (int kind = PARTNER_BASELINE; kind <= PARTNER_REFERENCE; kind++) {
 		if (!needed[kind])

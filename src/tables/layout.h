@@ -28,12 +28,13 @@ struct measure {
 };
 
 enum { LAYOUT_NOWHERE = -1 };
-#define LAYOUT_ALONE SIZE_MAX /* a run of the first row, which has none before it */
+#define LAYOUT_ALONE SIZE_MAX /* in the place of a run: there is none */
 
 /* The place of a run. */
 struct place {
 	long row, column;         /* LAYOUT_NOWHERE: not in this table */
 	size_t partner[PARTNERS]; /* by enum metric_partner: index of the run it is compared with */
+	size_t previous;          /* run of the row before in the same column, or LAYOUT_ALONE */
 };
 
 struct layout {
@@ -61,6 +62,10 @@ int layout_fail(const struct layout *layout, const struct term *term, struct err
 
 /* Give a placeless error the place of `term`. Returns -1. */
 int layout_place_error(const struct layout *layout, const struct term *term, struct error *err);
+
+/* Whether the run has a value of the metric: an order wants a row before, and errors that are not those of
+ * the reference itself. */
+bool layout_asks(const struct layout *layout, size_t run, const struct metric *metric);
 
 /* Refuse a time (NaN: the end) at which some run that has a place stores no profile: what is shown of
  * it would be missing for ever. */

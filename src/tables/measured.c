@@ -37,58 +37,98 @@ struct run_file *measured_open(
 	return file;
 }
 
-static struct run_file *open_partner(struct measured *measured, size_t index)
+static struct run_file *open_other(
+	struct measured *measured, struct measured_other *other, size_t index)
 {
-	if (measured->partner && measured->partner_index == index)
-		return measured->partner;
-	run_file_close(measured->partner);
-	measured->partner =
+	if (other->file && other->index == index)
+		return other->file;
+	run_file_close(other->file);
+	other->file =
 		measured_open(&measured->layout->experiment->runs[index], "", NULL, &measured->warnings);
-	measured->partner_index = index;
-	return measured->partner;
+	other->index = index;
+	return other->file;
 }
 
-static void tell_missing(struct measured *measured, const struct experiment_run *run,
-	const char *why, const char *reason)
+/* NaN, and why. */
+static double miss(struct measured *measured, size_t index, const char *why, const char *reason)
 {
-	tell(&measured->missing, measured->layout->what, run, why, reason);
+	const struct layout *layout = measured->layout;
+
+	tell(&measured->missing, layout->what, &layout->experiment->runs[index], why, reason);
+	return NAN;
 }
 
-static void measure(struct measured *measured, size_t index, struct run_file *file,
-	const struct measure *measure, double *value)
+static double miss_other(struct measured *measured, size_t index, size_t other)
 {
-	const struct experiment *experiment = measured->layout->experiment;
-	const struct experiment_run *run = &experiment->runs[index];
+	return miss(measured, index, "lacks the run it is compared with",
+		measured->layout->experiment->runs[other].id);
+}
+
+/* What the metric says of one run; of an order, its error. */
+static double evaluate(
+	struct measured *measured, size_t index, struct run_file *file, const struct measure *measure)
+{
+	const struct experiment_run *run = &measured->layout->experiment->runs[index];
 	const struct metric *metric = measure->metric;
+	enum metric_partner kind = metric_partner(metric);
 	struct sample sample = {
 		.file = file, .config = &run->config, .at = measure->at, .metric = metric};
 	struct error err = {0};
+	double value = NAN;
 
 	if (isnan(sample.at))
 		sample.at = run->config.time.end;
-	if (metric->partner != PARTNER_NONE) {
-		size_t partner = measured->layout->places[index].partner[metric->partner];
+	if (kind != PARTNER_NONE) {
+		size_t partner = measured->layout->places[index].partner[kind];
 
-		if (partner == LAYOUT_ALONE)
-			return;
-		sample.partner = partner == index ? file : open_partner(measured, partner);
-		if (!sample.partner) {
-			tell_missing(
-				measured, run, "lacks the run it is compared with", experiment->runs[partner].id);
-			return;
-		}
+		sample.partner =
+			partner == index ? file : open_other(measured, &measured->partner, partner);
+		if (!sample.partner)
+			return miss_other(measured, index, partner);
 	}
 	if ((metric->observes && layout_observed(measured->layout, run, metric->observes,
 								 metric->profile, &sample.observed, &err)) ||
-		metric->value(&sample, value, &err)) {
-		*value = NAN;
-		tell_missing(measured, run, metric->name, err.text);
-	} else if (!isfinite(*value)) {
-		*value = NAN;
-		tell_missing(measured, run, metric->name, "is not a number");
-	} else if (measured->layout->wanted->dimensionless && scale_find(metric->name, metric->unit)) {
-		*value /= scale_find(metric->name, metric->unit)->value(&run->config);
-	}
+		metric->value(&sample, &value, &err))
+		return miss(measured, index, metric->name, err.text);
+	return isfinite(value) ? value : miss(measured, index, metric->name, "is not a number");
+}
+
+/* The order of `error` in a run that has a row before it. */
+static double evaluate_order(
+	struct measured *measured, size_t index, const struct measure *measure, double error)
+{
+	const struct experiment_run *runs = measured->layout->experiment->runs;
+	size_t previous = measured->layout->places[index].previous;
+	struct run_file *file = open_other(measured, &measured->previous, previous);
+	struct error err = {0};
+	double before, order;
+
+	if (!file)
+		return miss_other(measured, index, previous);
+	before = evaluate(measured, previous, file, measure);
+	if (isnan(before))
+		return NAN;
+	if (metric_order(&runs[previous].config, before, &runs[index].config, error, &order, &err))
+		return miss(measured, index, measure->metric->name, err.text);
+	return isfinite(order) ? order
+						   : miss(measured, index, measure->metric->name, "is not a number");
+}
+
+static double measure(
+	struct measured *measured, size_t index, struct run_file *file, const struct measure *measure)
+{
+	const struct layout *layout = measured->layout;
+	const struct metric *metric = measure->metric;
+	const struct scale *scale =
+		layout->wanted->dimensionless ? scale_find(metric->name, metric->unit) : NULL;
+	double value;
+
+	if (!layout_asks(layout, index, metric))
+		return NAN;
+	value = evaluate(measured, index, file, measure);
+	if (metric_is_order(metric) && !isnan(value))
+		value = evaluate_order(measured, index, measure, value);
+	return scale ? value / scale->value(&layout->experiment->runs[index].config) : value;
 }
 
 int measured_make(struct measured *measured, const struct layout *layout, struct error *err)
@@ -111,12 +151,13 @@ int measured_make(struct measured *measured, const struct layout *layout, struct
 		if (!file)
 			continue;
 		for (size_t m = 0; m < measures; m++)
-			measure(measured, i, file, &layout->measures[m], &measured->values[i * measures + m]);
+			measured->values[i * measures + m] = measure(measured, i, file, &layout->measures[m]);
 		provenance_add(&measured->provenance, file);
 		run_file_close(file);
 	}
-	run_file_close(measured->partner);
-	measured->partner = NULL;
+	run_file_close(measured->partner.file);
+	run_file_close(measured->previous.file);
+	measured->partner.file = measured->previous.file = NULL;
 	return 0;
 }
 

@@ -5,15 +5,19 @@
 #include "tables/layout.h"
 #include "tables/provenance.h"
 
+/* A run that others are compared with; neighbours share it as a rule, so it stays open. */
+struct measured_other {
+	struct run_file *file;
+	size_t index;
+};
+
 struct measured {
 	const struct layout *layout;
 	double *values; /* [runs][measures], NaN: missing */
 	struct provenance provenance;
-	struct text warnings; /* lines about the files that were read */
-	struct text missing;  /* a line per missing run: its name and why */
-	/* the partner opened last: neighbouring runs share it as a rule */
-	struct run_file *partner;
-	size_t partner_index;
+	struct text warnings;                    /* lines about the files that were read */
+	struct text missing;                     /* a line per missing run: its name and why */
+	struct measured_other partner, previous; /* opened last */
 };
 
 /* Measure every run that has a place in the layout, which must outlive `measured`. A run that is not

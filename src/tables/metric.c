@@ -374,30 +374,44 @@ static const struct metric metrics[] = {
 		"at a profile time"},
 	{"l2-difference", "l2", "%", 2, PARTNER_REFERENCE, true, NULL, l2_difference, NULL,
 		"the same in the l2 norm"},
+	{"h-l1", "h L1", "m2", -1, PARTNER_REFERENCE, true, NULL, metric_reference_l1, "h",
+		"difference in thickness from the `reference` run, which is averaged over the cells of "
+		"this "
+		"one: L1 as P1 (35), at a profile time"},
+	{"h-l1-order", "order", "", 2, PARTNER_REFERENCE_PREVIOUS, true, NULL, metric_reference_l1, "h",
+		"its order, from the row before"},
+	{"u-l1", "u L1", "m3/s", -1, PARTNER_REFERENCE, true, NULL, metric_reference_l1, "u",
+		"as h-l1, of the layer velocities along the slope, over cells and layers"},
+	{"u-l1-order", "order", "", 2, PARTNER_REFERENCE_PREVIOUS, true, NULL, metric_reference_l1, "u",
+		"its order, from the row before"},
+	{"w-l1", "w L1", "m3/s", -1, PARTNER_REFERENCE, true, NULL, metric_reference_l1, "w",
+		"as h-l1, of the layer velocities normal to the slope, over cells and layers"},
+	{"w-l1-order", "order", "", 2, PARTNER_REFERENCE_PREVIOUS, true, NULL, metric_reference_l1, "w",
+		"its order, from the row before"},
 	{"velocity-l1", "v L1", "", -1, PARTNER_NONE, true, NULL, metric_steady_l1, "v",
 		"error of the velocity profile against the exact steady flow, L1, at a profile time"},
 	{"velocity-l2", "v L2", "", -1, PARTNER_NONE, true, NULL, metric_steady_l2, "v",
 		"the same in L2"},
 	{"velocity-linf", "v Linf", "", -1, PARTNER_NONE, true, NULL, metric_steady_linf, "v",
 		"the same, the greatest"},
-	{"velocity-l1-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_l1_order, "v",
+	{"velocity-l1-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_l1, "v",
 		"its order, from the row before"},
-	{"velocity-l2-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_l2_order, "v",
+	{"velocity-l2-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_l2, "v",
 		"its order, from the row before"},
-	{"velocity-linf-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_linf_order,
-		"v", "its order, from the row before"},
+	{"velocity-linf-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_linf, "v",
+		"its order, from the row before"},
 	{"fraction-l1", "phi L1", "", -1, PARTNER_NONE, true, NULL, metric_steady_l1, "phi",
 		"error of the solid fraction against the exact steady flow, L1, at a profile time"},
 	{"fraction-l2", "phi L2", "", -1, PARTNER_NONE, true, NULL, metric_steady_l2, "phi",
 		"the same in L2"},
 	{"fraction-linf", "phi Linf", "", -1, PARTNER_NONE, true, NULL, metric_steady_linf, "phi",
 		"the same, the greatest"},
-	{"fraction-l1-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_l1_order,
-		"phi", "its order, from the row before"},
-	{"fraction-l2-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_l2_order,
-		"phi", "its order, from the row before"},
-	{"fraction-linf-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_linf_order,
-		"phi", "its order, from the row before"},
+	{"fraction-l1-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_l1, "phi",
+		"its order, from the row before"},
+	{"fraction-l2-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_l2, "phi",
+		"its order, from the row before"},
+	{"fraction-linf-order", "order", "", 2, PARTNER_PREVIOUS, true, NULL, metric_steady_linf, "phi",
+		"its order, from the row before"},
 	{"max-velocity", "v max", "m/s", -1, PARTNER_NONE, true, NULL, metric_layer_max, "v",
 		"greatest layer velocity at a profile time"},
 	{"final-max-speed", "v max", "m/s", -1, PARTNER_NONE, false, NULL, metric_series_last,
@@ -437,6 +451,29 @@ static const struct metric metrics[] = {
 		"newton_iterations", "Newton iterations of the whole run"},
 };
 
+enum metric_partner metric_partner(const struct metric *metric)
+{
+	return metric->partner % PARTNER_PREVIOUS;
+}
+
+bool metric_is_order(const struct metric *metric)
+{
+	return metric->partner & PARTNER_PREVIOUS;
+}
+
+int metric_order(const struct config *before, double error_before, const struct config *config,
+	double error, double *out, struct error *err)
+{
+	double finer = (double)config->domain.cells / before->domain.cells;
+
+	if (finer == 1)
+		finer = (double)config->layers / before->layers;
+	if (finer == 1)
+		return error_set(err, EX_DATAERR, "the row before has the same cells and layers");
+	*out = log(error_before / error) / log(finer);
+	return 0;
+}
+
 const struct metric *metric_find(const char *name, const char **nearest)
 {
 	int best = INT_MAX;
@@ -461,7 +498,7 @@ void table_reference(struct text *out)
 	for (size_t i = 0; i < sizeof metrics / sizeof *metrics; i++)
 		text_addf(out, "| `%s` | %s | %s%s |\n", metrics[i].name, metrics[i].header,
 			metrics[i].meaning ? metrics[i].meaning : "",
-			metrics[i].partner == PARTNER_BASELINE    ? " (needs `baseline`)"
-			: metrics[i].partner == PARTNER_REFERENCE ? " (needs `reference`)"
-													  : "");
+			metric_partner(&metrics[i]) == PARTNER_BASELINE    ? " (needs `baseline`)"
+			: metric_partner(&metrics[i]) == PARTNER_REFERENCE ? " (needs `reference`)"
+															   : "");
 }

@@ -11,13 +11,15 @@
 #include "talus/run_file.h"
 #include "talus/text.h"
 
-/* PARTNER_PREVIOUS: the run of the row before, in the same column; the first row has none. */
+/* What a run is compared with. PARTNER_PREVIOUS is a flag beside one of the others: the metric is an order,
+ * how fast `value` falls from the run of the row before, in the same column, to this one. */
 enum metric_partner {
 	PARTNER_NONE,
 	PARTNER_BASELINE,
 	PARTNER_REFERENCE,
-	PARTNER_PREVIOUS,
 	PARTNERS,
+	PARTNER_PREVIOUS = 4,
+	PARTNER_REFERENCE_PREVIOUS = PARTNER_REFERENCE | PARTNER_PREVIOUS,
 };
 
 struct sample {
@@ -37,11 +39,21 @@ struct metric {
 	enum metric_partner partner;
 	bool profile;         /* taken at a profile time */
 	const char *observes; /* dataset that is compared with observations, NULL: none */
-	/* EX_DATAERR where the file lacks what is needed. */
+	/* Of an order the error that falls. EX_DATAERR where the file lacks what is needed. */
 	int (*value)(const struct sample *sample, double *out, struct error *err);
 	const char *dataset; /* that `value` reads, where it could read others too; NULL */
 	const char *meaning; /* for the reference */
 };
+
+/* Without the flag: an index below PARTNERS. */
+enum metric_partner metric_partner(const struct metric *metric);
+
+bool metric_is_order(const struct metric *metric);
+
+/* Log of `error_before` over `error`, by how much finer the cells are here than in the row before; the layers,
+ * where the cells are the same. EX_DATAERR where neither differs. */
+int metric_order(const struct config *before, double error_before, const struct config *config,
+	double error, double *out, struct error *err);
 
 /* NULL if there is none of that name; then `nearest` is the name that comes closest. */
 const struct metric *metric_find(const char *name, const char **nearest);

@@ -12,15 +12,14 @@ size_t metric_count(const struct dataset *data);
 /* The row of `time` in profile_time. EX_DATAERR where there is none. */
 int metric_profile_row(struct run_file *file, double time, size_t *row, struct error *err);
 
-/* metric_steady.c: a profile over the layers against the one stored beside it as NAME_steady, relative,
- * and how fast that falls with the number of layers. */
+/* metric_steady.c: a profile over the layers against the one stored beside it as NAME_steady, relative. */
 int metric_steady_l1(const struct sample *sample, double *out, struct error *err);
 int metric_steady_l2(const struct sample *sample, double *out, struct error *err);
 int metric_steady_linf(const struct sample *sample, double *out, struct error *err);
-int metric_steady_l1_order(const struct sample *sample, double *out, struct error *err);
-int metric_steady_l2_order(const struct sample *sample, double *out, struct error *err);
-int metric_steady_linf_order(const struct sample *sample, double *out, struct error *err);
 int metric_layer_max(const struct sample *sample, double *out, struct error *err);
+
+/* metric_reference.c: a profile over x against that of a finer reference run. */
+int metric_reference_l1(const struct sample *sample, double *out, struct error *err);
 
 /* metric_series.c: numbers of a series. */
 int metric_series_last(const struct sample *sample, double *out, struct error *err);

@@ -57,22 +57,6 @@ done:
 	return result;
 }
 
-/* log(error of fewer layers/error of more)/log(more/fewer); the partner is the run of the row before. */
-static int order(const struct sample *sample, int power, double *out, struct error *err)
-{
-	struct dataset layers = {0}, before = {0};
-	double error, error_before;
-
-	TRY(compare(sample->file, sample->metric->dataset, sample->at, power, &error, err));
-	TRY(compare(sample->partner, sample->metric->dataset, sample->at, power, &error_before, err));
-	TRY(metric_read(sample->file, "layer", &layers, err));
-	free(layers.values);
-	TRY(metric_read(sample->partner, "layer", &before, err));
-	free(before.values);
-	*out = log(error_before / error) / log((double)layers.extent[0] / (double)before.extent[0]);
-	return 0;
-}
-
 int metric_steady_l1(const struct sample *sample, double *out, struct error *err)
 {
 	return compare(sample->file, sample->metric->dataset, sample->at, 1, out, err);
@@ -86,21 +70,6 @@ int metric_steady_l2(const struct sample *sample, double *out, struct error *err
 int metric_steady_linf(const struct sample *sample, double *out, struct error *err)
 {
 	return compare(sample->file, sample->metric->dataset, sample->at, 0, out, err);
-}
-
-int metric_steady_l1_order(const struct sample *sample, double *out, struct error *err)
-{
-	return order(sample, 1, out, err);
-}
-
-int metric_steady_l2_order(const struct sample *sample, double *out, struct error *err)
-{
-	return order(sample, 2, out, err);
-}
-
-int metric_steady_linf_order(const struct sample *sample, double *out, struct error *err)
-{
-	return order(sample, 0, out, err);
 }
 
 int metric_layer_max(const struct sample *sample, double *out, struct error *err)

@@ -5,6 +5,8 @@ for experiment in experiments/*.yaml; do
 	set=(--set domain.cells=40)
 	grep -q '^base: .*/immersed' "$experiment" && set=(--set time.scheme=tr-bdf2)
 	[[ $experiment == */p4-cost.yaml ]] && set=(--set 'time.end=0.1 s')
+	# its reference has a grid of its own
+	[[ $experiment == */p1-table5.yaml ]] && sed -i 's/6400/40/' "$experiment"
 	talus campaign run "${set[@]}" "$experiment" >out 2>err || cat out err
 	if grep -q '^tables:' "$experiment"; then
 		# flows on so coarse a grid need not come to rest

@@ -69,7 +69,9 @@ static struct experiment read_experiment(const char *text)
 struct content {
 	double cpu_seconds;
 	double iterations[3];
-	double h[2][4];     /* at 0.1 s and 0.3 s */
+	double h[2][4];     /* at 0.1 s and 0.3 s; fewer cells fill it from its beginning */
+	double u[16];       /* over layers and cells at 0.3 s, in runs of at most so many */
+	double left;        /* what x is shifted by */
 	double layer_error; /* of v in every layer, where v_steady is 1 */
 	double speed;       /* what max_speed is multiplied by */
 	const char *host, *compiler;
@@ -97,12 +99,16 @@ static void add_scale(struct image *image, const char *name, size_t count, const
 						   .values = values});
 }
 
-static void add_content(struct image *image, const struct content *content)
+static void add_content(struct image *image, const struct content *content, size_t cells)
 {
-	static const double time[] = {0, 0.15, 0.3}, profile_time[] = {0.1, 0.3}, x[] = {0, 1, 2, 3};
+	static const double time[] = {0, 0.15, 0.3}, profile_time[] = {0.1, 0.3};
 	static const double front[] = {0, 0.5, 1.25}, cpu[] = {0, 1, 2};
 	static const double residual[] = {0, 3.4e-9, 1.2e-9};
+	double x[4];
 
+	assert_true(cells <= 4);
+	for (size_t i = 0; i < cells; i++)
+		x[i] = ((double)i + 0.5) * 4 / (double)cells - 0.5 + content->left;
 	image_real(image, "cpu_seconds", content->cpu_seconds);
 	image_text(image, "talus_version", "0.1.0");
 	image_text(image, "git_revision", "abc");
@@ -111,7 +117,7 @@ static void add_content(struct image *image, const struct content *content)
 	image_text(image, "host", content->host ? content->host : "here");
 	add_scale(image, "time", 3, time);
 	add_scale(image, "profile_time", 2, profile_time);
-	add_scale(image, "x", 4, x);
+	add_scale(image, "x", cells, x);
 	add_series(image, "pressure_iterations", content->iterations);
 	add_series(image, "front_position", front);
 	add_series(image, "cpu_pressure", cpu);
@@ -120,7 +126,7 @@ static void add_content(struct image *image, const struct content *content)
 							 .units = "m",
 							 .long_name = "h",
 							 .rank = 2,
-							 .extent = {2, 4},
+							 .extent = {2, cells},
 							 .scales = {"profile_time", "x"},
 							 .values = content->h[0]});
 }
@@ -156,19 +162,36 @@ static void add_layers(struct image *image, const struct content *content, size_
 								 .values = k ? v : steady});
 }
 
+static void add_velocity(
+	struct image *image, const struct content *content, size_t layers, size_t cells)
+{
+	double u[2 * sizeof content->u / sizeof *content->u] = {0};
+
+	memcpy(u + layers * cells, content->u, layers * cells * sizeof *u);
+	image_dataset(image, &(struct image_data){.path = "u",
+							 .units = "m s-1",
+							 .long_name = "u",
+							 .rank = 3,
+							 .extent = {2, layers, cells},
+							 .scales = {"profile_time", "layer", "x"},
+							 .values = u});
+}
+
 static void make_run(const struct experiment_run *run, const struct content *content)
 {
 	struct run_summary summary = {.status = content->status, .step = 7, .time = 0.3};
 	struct image *image;
 	struct error err = {0};
 	unsigned char *bytes, trailer[TRAILER_SIZE];
-	size_t size;
+	size_t size, layers = (size_t)run->config.layers, cells = (size_t)run->config.domain.cells;
 
 	(void)snprintf(summary.config_hash, sizeof summary.config_hash, "%s", run->hash);
 	assert_int_equal(file_make_folders(run->folder, &err), 0);
 	assert_int_equal(image_create(4096, &image, &err), 0);
-	add_content(image, content);
-	add_layers(image, content, (size_t)run->config.layers);
+	add_content(image, content, cells);
+	add_layers(image, content, layers);
+	if (layers * cells <= sizeof content->u / sizeof *content->u)
+		add_velocity(image, content, layers, cells);
 	assert_int_equal(image_finish(image, TRAILER_SIZE, &bytes, &size, &err), 0);
 	trailer_write(&summary, bytes, size, trailer);
 	assert_int_equal(file_replace(&(struct file_place){.folder = run->folder, .name = "run.h5"},
@@ -354,6 +377,93 @@ static void errors_against_steady_profiles_have_orders_from_row_to_row(void **st
 		"2        0.0625          0.0625\n"
 		"4       0.00781   3.00  0.00781   3.00\n"
 		"8       0.00195   2.00  0.00195   2.00\n" NOTES);
+	experiment_clean(&experiment);
+}
+
+/* The reference is u = layer + 10 cell of four each, h = 1, 2, 3, 4. Its means are 6.5 and 26.5 over halves of
+ * the cells and all layers, and 1.5 and 3.5 of h. */
+static void errors_against_a_finer_run_are_those_of_its_means(void **state)
+{
+	struct experiment experiment =
+		read_experiment("base: base.yaml\n"
+						"runs: [{zip: {domain.cells: [2, 4, 4], layers: [1, 2, 4]}}]\n"
+						"tables: [{name: t, rows: [domain.cells, layers], reference: "
+						"{domain.cells: 4, layers: 4},\n"
+						"  metric: [h-l1, h-l1-order, u-l1, u-l1-order]}]\n");
+	struct content coarse = complete(1, 1), finer = complete(1, 1), reference = complete(1, 1);
+
+	(void)state;
+	memcpy(reference.h[1], (double[]){1, 2, 3, 4}, sizeof reference.h[1]);
+	for (size_t k = 0; k < 16; k++)
+		reference.u[k] = (double)(k / 4) + 10 * (double)(k % 4);
+	/* h off by 1/4 in both cells of 2 m, u by 1 and 2: 2 (1.75 + 2 3.25) = 16.5 */
+	memcpy(coarse.h, (double[]){9, 9, 1.75, 3.25}, sizeof coarse.h[0]);
+	memcpy(coarse.u, (double[]){7.5, 24.5}, 2 * sizeof *coarse.u);
+	/* h off by 1/4 in one cell of 1 m, u by 1 and 2 in half the height: 1.25/2 + 2 4/2 = 4.625 */
+	memcpy(finer.h[1], (double[]){1.25, 2, 3, 4}, sizeof finer.h[1]);
+	memcpy(finer.u, (double[]){1.5, 10.5, 20.5, 30.5, 2.5, 12.5, 22.5, 30.5}, 8 * sizeof *finer.u);
+	make_run(&experiment.runs[0], &coarse);
+	make_run(&experiment.runs[1], &finer);
+	make_run(&experiment.runs[2], &reference);
+	/* orders log2(1/0.25) and log2(16.5/4.625); the reference has none */
+	assert_table(&experiment, "text",
+		"t\n"
+		"\n"
+		"cells  layers  h L1 m2  order  u L1 m3/s  order\n"
+		"-----------------------------------------------\n"
+		"2      1          1.00              16.5\n"
+		"4      2         0.250   2.00       4.62   1.83\n"
+		"4      4          0.00              0.00\n" NOTES);
+	experiment_clean(&experiment);
+}
+
+/* Prints the table, whose missing cells are for this reason. */
+static void assert_missing(const struct experiment *experiment, const char *reason)
+{
+	struct text missing = {0};
+
+	free(print(experiment, "text", &missing));
+	if (!strstr(text_string(&missing), reason))
+		fail_msg("no '%s' in: %s", reason, text_string(&missing));
+	text_clean(&missing);
+}
+
+static void a_reference_whose_grid_does_not_fit_is_refused(void **state)
+{
+	struct experiment experiment =
+		read_experiment("base: base.yaml\n"
+						"runs: [{zip: {domain.cells: [4, 3, 2, 2], layers: [4, 2, 8, 2]}}]\n"
+						"tables: [{name: t, rows: [domain.cells, layers], reference: "
+						"{domain.cells: 4, layers: 4},\n"
+						"  metric: [u-l1, u-l1-order]}]\n");
+
+	(void)state;
+	for (size_t i = 0; i < experiment.run_count; i++) {
+		struct content content = complete(1, 1);
+
+		content.left = i == 3 ? 0.25 : 0;
+		make_run(&experiment.runs[i], &content);
+	}
+	assert_missing(&experiment, ": u-l1: 3 cells and 2 layers here do not divide the 4 and 4 of "
+								"the reference\n");
+	assert_missing(&experiment, ": u-l1: 2 cells and 8 layers here do not divide");
+	assert_missing(&experiment, ": u-l1: the reference has another domain\n");
+	experiment_clean(&experiment);
+}
+
+static void an_order_needs_another_grid_in_the_row_before(void **state)
+{
+	struct experiment experiment =
+		read_experiment("base: base.yaml\nruns: [{slope: [1 deg, 2 deg]}]\n"
+						"tables: [{name: t, rows: slope, metric: velocity-l1-order}]\n");
+	struct content content = complete(1, 1);
+
+	(void)state;
+	content.layer_error = 0.5;
+	make_run(&experiment.runs[0], &content);
+	make_run(&experiment.runs[1], &content);
+	assert_missing(
+		&experiment, ": velocity-l1-order: the row before has the same cells and layers\n");
 	experiment_clean(&experiment);
 }
 
@@ -645,6 +755,9 @@ int main(void)
 		TEST(a_metric_is_what_its_run_file_says),
 		TEST(differences_are_relative_to_the_mass_above_the_bed),
 		TEST(errors_against_steady_profiles_have_orders_from_row_to_row),
+		TEST(errors_against_a_finer_run_are_those_of_its_means),
+		TEST(a_reference_whose_grid_does_not_fit_is_refused),
+		TEST(an_order_needs_another_grid_in_the_row_before),
 		TEST(numbers_of_series_are_those_of_the_whole_run),
 		TEST(an_unfinished_run_is_missing_and_named),
 		TEST(a_cell_keeps_the_median_of_the_repeats_that_are_there),
