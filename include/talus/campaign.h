@@ -52,6 +52,7 @@ struct campaign {
 	struct campaign_watch watch;
 	struct task *tasks; /* [experiment->run_count], in the order of the experiment */
 	bool stopping;      /* a signal asked for it */
+	struct error fault; /* of the disk: nothing more is started; code 0: there was none */
 };
 
 /* How runs are executed; a row of the table in executor.c. */
@@ -70,12 +71,14 @@ int campaign_create(struct campaign *campaign, const struct experiment *experime
 
 void campaign_clean(struct campaign *campaign);
 
-/* Bring every run to its end. Failed runs do not stop the others. SIGINT, SIGTERM, SIGHUP and SIGUSR1
+/* Bring every run to its end. Failed runs do not stop the others; a disk that can hold no more does,
+ * see `fault`. SIGINT, SIGTERM, SIGHUP and SIGUSR1
  * stop the children, whose checkpoints are waited for; a second SIGINT ends the wait. Returns 0 also
  * when runs failed: see the tasks and campaign_code. EX_CANTCREAT, EX_IOERR, EX_SOFTWARE. */
 int campaign_execute(struct campaign *campaign, const struct executor *executor, struct error *err);
 
-/* The exit code of the campaign: EX_INTERRUPTED beats EX_FAILED beats 0. */
+/* The exit code of the campaign: that of the fault beats EX_INTERRUPTED beats EX_IOERR and EX_CANTCREAT
+ * (of one run's folder) beats EX_DATAERR (a run file) beats EX_FAILED beats 0. */
 int campaign_code(const struct campaign *campaign);
 
 size_t campaign_count(const struct campaign *campaign, enum task_state state);

@@ -40,6 +40,9 @@ bool text_to_integer(const char *string, int *value);
  * characters '?', and what does not fit `size` bytes ends in "...". Returns `buffer`. */
 char *text_excerpt(const char *string, char *buffer, size_t size);
 
+/* `string` as one word of a shell, quoted where it has to be. */
+void text_add_word(struct text *text, const char *string);
+
 /* Edit distance (insert, delete, substitute, swap neighbours), for "did you mean". Strings longer
  * than 63 bytes count as infinitely far apart. */
 int text_distance(const char *a, const char *b);

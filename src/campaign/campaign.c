@@ -49,13 +49,30 @@ size_t campaign_count(const struct campaign *campaign, enum task_state state)
 	return count;
 }
 
+/* Of a run that failed: what is wrong with its files has a code of its own. */
+static int task_code(const struct task *task)
+{
+	bool files =
+		task->code == EX_IOERR || task->code == EX_CANTCREAT || task->code == EX_DATAERR;
+
+	return files ? task->code : EX_FAILED;
+}
+
 int campaign_code(const struct campaign *campaign)
 {
 	size_t ended = campaign_count(campaign, TASK_COMPLETE) + campaign_count(campaign, TASK_FAILED);
+	int worst = 0;
 
+	if (campaign->fault.code)
+		return campaign->fault.code;
 	if (ended < campaign->experiment->run_count)
 		return EX_INTERRUPTED;
-	return campaign_count(campaign, TASK_FAILED) ? EX_FAILED : 0;
+	for (size_t i = 0; i < campaign->experiment->run_count; i++) {
+		int code = campaign->tasks[i].state == TASK_FAILED ? task_code(&campaign->tasks[i]) : 0;
+
+		worst = code > worst ? code : worst;
+	}
+	return worst;
 }
 
 void campaign_work(const struct campaign *campaign, double *done, double *all)

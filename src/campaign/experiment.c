@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "campaign/expand.h"
 #include "campaign/reader.h"
 #include "campaign/setting.h"
@@ -209,8 +210,7 @@ static int load_base(
 	enum { LIMIT = 1 << 20 }; /* what yaml_parse takes */
 	const char *slash = strrchr(experiment->path, '/');
 	int directory = base->text[0] != '/' && slash ? (int)(slash + 1 - experiment->path) : 0;
-	FILE *file;
-	int result = -1;
+	ssize_t length;
 
 	if (asprintf(&experiment->base, "%.*s%s", directory, experiment->path, base->text) < 0) {
 		experiment->base = NULL;
@@ -219,19 +219,13 @@ static int load_base(
 	experiment->base_text = malloc(LIMIT + 1);
 	if (!experiment->base_text)
 		return error_memory(reader->err, LIMIT + 1);
-	file = fopen(experiment->base, "re");
-	if (!file)
+	length = file_read_text(experiment->base, experiment->base_text, LIMIT + 1);
+	if (length < 0)
 		return reader_fail(reader, base, "cannot read %s: %s", experiment->base, strerror(errno));
-	errno = 0;
-	experiment->base_length = fread(experiment->base_text, 1, LIMIT + 1, file);
-	if (ferror(file))
-		reader_fail(reader, base, "cannot read %s: %s", experiment->base, strerror(errno));
-	else if (experiment->base_length > LIMIT)
-		reader_fail(reader, base, "%s is larger than 1 MiB", experiment->base);
-	else
-		result = 0;
-	(void)fclose(file);
-	return result;
+	if (length > LIMIT)
+		return reader_fail(reader, base, "%s is larger than 1 MiB", experiment->base);
+	experiment->base_length = (size_t)length;
+	return 0;
 }
 
 static int keep_overrides(
@@ -256,19 +250,25 @@ static int keep_overrides(
 	return 0;
 }
 
-/* results/<stem of the file> unless the caller names a folder. */
+/* results/<stem of the file> unless the caller names a folder. No name begins with '-', which other
+ * programs would take for an option. */
 static int name_folder(struct experiment *experiment, const char *folder, struct error *err)
 {
-	const char *slash = strrchr(experiment->path, '/');
-	const char *name = slash ? slash + 1 : experiment->path;
-	const char *dot = strrchr(name, '.');
-	int stem = dot && dot > name ? (int)(dot - name) : (int)strlen(name);
+	struct text name = {0};
+	bool right = true;
 
 	if (folder)
-		experiment->folder = strdup(folder);
-	else if (asprintf(&experiment->folder, "results/%.*s", stem, name) < 0)
-		experiment->folder = NULL;
-	return experiment->folder ? 0 : error_memory(err, strlen(name));
+		text_addf(&name, "%s%s", *folder == '-' ? "./" : "", folder);
+	else {
+		text_add(&name, "results/");
+		right = file_stem(experiment->path, &name);
+	}
+	experiment->folder = name.data;
+	if (name.failed)
+		return error_memory(err, name.length);
+	return right ? 0
+				 : error_at(err, EX_DATAERR, experiment->path, 0, 0,
+					   "its name is none for a folder of results; name one with -o");
 }
 
 int experiment_read(struct experiment *experiment, const char *path, const char *folder,

@@ -35,12 +35,35 @@ static bool is_over(const struct task *task)
 		   task->state == TASK_INTERRUPTED;
 }
 
+/* A run that could not write: is it the run's own folder, or the disk? On a disk that holds no more
+ * nothing else is started, and the run is not to blame. */
+static void blame_disk(struct pool *pool, struct task *task)
+{
+	enum { LEAST = 1 << 16 };
+	struct campaign *campaign = pool->campaign;
+	struct text path = {0};
+	struct error ignored = {0};
+	size_t room = LEAST, size;
+
+	if (task->state != TASK_FAILED || (task->code != EX_IOERR && task->code != EX_CANTCREAT))
+		return;
+	if (!file_path(&path, task->run->folder, "run.h5", &ignored) &&
+		file_size(text_string(&path), &size) && size > room)
+		room = size;
+	text_clean(&path);
+	if (!file_has_room(campaign->experiment->folder, room, &campaign->fault))
+		task->state = TASK_INTERRUPTED;
+}
+
 static void reap(struct pool *pool)
 {
 	for (size_t i = 0; i < task_count(pool); i++) {
 		struct task *task = &pool->campaign->tasks[i];
 
-		if (task->state == TASK_RUNNING && task_reap(pool->campaign, task) && is_over(task))
+		if (task->state != TASK_RUNNING || !task_reap(pool->campaign, task))
+			continue;
+		blame_disk(pool, task);
+		if (is_over(task))
 			tell_end(pool, task);
 	}
 }
@@ -67,6 +90,7 @@ static void fail_start(struct pool *pool, struct task *task, struct error *err)
 	task->code = err->code;
 	(void)error_format(err, task->report.reason, sizeof task->report.reason);
 	*err = (struct error){0};
+	blame_disk(pool, task);
 	tell_end(pool, task);
 }
 
@@ -102,7 +126,7 @@ static void start(struct pool *pool, struct error *err)
 {
 	const struct campaign *campaign = pool->campaign;
 
-	while (!campaign->stopping && !err->code &&
+	while (!campaign->stopping && !campaign->fault.code && !err->code &&
 		   campaign_count(campaign, TASK_RUNNING) < (size_t)campaign->options.jobs &&
 		   start_next(pool, err))
 		;
@@ -157,7 +181,7 @@ static bool is_work_left(const struct pool *pool, const struct error *err)
 
 	if (campaign_count(campaign, TASK_RUNNING))
 		return true;
-	return !campaign->stopping && !err->code &&
+	return !campaign->stopping && !campaign->fault.code && !err->code &&
 		   (campaign_count(campaign, TASK_WAITING) || campaign_count(campaign, TASK_ELSEWHERE));
 }
 

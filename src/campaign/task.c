@@ -29,9 +29,12 @@ void task_look(const struct campaign *campaign, struct task *task)
 	case RUN_STATE_FAILED:
 		task->state = campaign->options.retry ? TASK_WAITING : TASK_FAILED;
 		break;
+	case RUN_STATE_DAMAGED:
+		task->state = campaign->options.retry ? TASK_WAITING : TASK_FAILED;
+		task->code = EX_DATAERR;
+		break;
 	case RUN_STATE_PENDING:
 	case RUN_STATE_INTERRUPTED:
-	case RUN_STATE_DAMAGED:
 		task->state = TASK_WAITING;
 		break;
 	}
@@ -70,7 +73,7 @@ done:
 }
 
 /* What the child does between fork and exec. Never returns. */
-static void become_run(const struct campaign *campaign, char *const *arguments, const char *log,
+static void become_run(const struct campaign *campaign, char *const *arguments, int log,
 	const sigset_t *mask, const struct lock *timing, pid_t parent)
 {
 	const char *program = campaign->options.program ? campaign->options.program : "/proc/self/exe";
@@ -86,11 +89,8 @@ static void become_run(const struct campaign *campaign, char *const *arguments, 
 	fd = open("/dev/null", O_RDONLY);
 	if (fd >= 0)
 		(void)dup2(fd, STDIN_FILENO);
-	fd = open(log, O_WRONLY | O_CREAT | O_APPEND, 0666);
-	if (fd < 0 || dup2(fd, STDOUT_FILENO) < 0 || dup2(fd, STDERR_FILENO) < 0)
+	if (dup2(log, STDOUT_FILENO) < 0 || dup2(log, STDERR_FILENO) < 0)
 		_exit(EX_CANTCREAT);
-	if (fd > STDERR_FILENO)
-		(void)close(fd);
 	(void)sigprocmask(SIG_SETMASK, mask, NULL);
 	(void)execv(program, arguments);
 	(void)dprintf(STDERR_FILENO, "talus: cannot start %s: %s\n", program, strerror(errno));
@@ -100,13 +100,19 @@ static void become_run(const struct campaign *campaign, char *const *arguments, 
 int task_start(const struct campaign *campaign, struct task *task, const sigset_t *mask,
 	const struct lock *timing, struct error *err)
 {
-	struct text config = {0}, log = {0};
+	struct text config = {0}, path = {0};
 	pid_t parent = getpid();
-	int result = -1;
+	int log = -1, result = -1;
 
 	if (write_config(task, err) || file_path(&config, task->run->folder, "config.yaml", err) ||
-		file_path(&log, task->run->folder, "run.log", err))
+		file_path(&path, task->run->folder, "run.log", err))
 		goto done;
+	log = file_open_log(text_string(&path));
+	if (log < 0) {
+		error_at(err, EX_CANTCREAT, text_string(&path), 0, 0, "cannot be opened: %s",
+			strerror(errno));
+		goto done;
+	}
 	/* what the program has buffered would be written twice */
 	(void)fflush(NULL);
 	task->pid = fork();
@@ -118,14 +124,16 @@ int task_start(const struct campaign *campaign, struct task *task, const sigset_
 		char *arguments[] = {"talus", "run", config.data, "-o", task->run->folder, "--quiet",
 			campaign->options.retry ? "--retry" : NULL, NULL};
 
-		become_run(campaign, arguments, log.data, mask, timing, parent);
+		become_run(campaign, arguments, log, mask, timing, parent);
 	}
 	(void)setpgid(task->pid, task->pid); /* whoever of the two comes first */
 	task->state = TASK_RUNNING;
 	result = 0;
 done:
+	if (log >= 0)
+		(void)close(log);
 	text_clean(&config);
-	text_clean(&log);
+	text_clean(&path);
 	return result;
 }
 

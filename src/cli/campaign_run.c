@@ -93,7 +93,12 @@ static void tell_failure(const struct task *task)
 {
 	struct text log = {0};
 
-	(void)fprintf(stderr, "talus: run %s failed", task->run->id);
+	(void)fprintf(stderr, "talus: run %s %s", task->run->id,
+		task->state == TASK_FAILED ? "failed" : "could not write");
+	if (task->report.state == RUN_STATE_DAMAGED) {
+		(void)fprintf(stderr, ": %s; --retry starts it anew\n", task->report.reason);
+		return;
+	}
 	if (task->code > 128)
 		(void)fprintf(stderr, " (signal %d: %s)", task->code - 128, strsignal(task->code - 128));
 	else if (task->code)
@@ -106,6 +111,13 @@ static void tell_failure(const struct task *task)
 		(void)fprintf(stderr, ": %s\n", task->report.reason);
 	}
 	text_clean(&log);
+}
+
+static bool is_told(const struct task *task)
+{
+	return task->state == TASK_FAILED ||
+		   (task->state == TASK_INTERRUPTED &&
+			   (task->code == EX_IOERR || task->code == EX_CANTCREAT));
 }
 
 static void tell_counts(const struct campaign *campaign, struct text *out)
@@ -126,14 +138,18 @@ static void tell_counts(const struct campaign *campaign, struct text *out)
 static int tell_result(const struct campaign *campaign)
 {
 	struct text out = {0};
+	char message[sizeof campaign->fault.text + sizeof campaign->fault.file];
 	int code = campaign_code(campaign), printed;
 
 	tell_counts(campaign, &out);
 	printed = command_print(&out);
 	for (size_t i = 0; i < campaign->experiment->run_count; i++)
-		if (campaign->tasks[i].state == TASK_FAILED)
+		if (is_told(&campaign->tasks[i]))
 			tell_failure(&campaign->tasks[i]);
-	if (code == EX_INTERRUPTED)
+	if (campaign->fault.code)
+		(void)fprintf(stderr, "talus: %s; nothing more was started, and the same command goes on\n",
+			error_format(&campaign->fault, message, sizeof message));
+	else if (code == EX_INTERRUPTED)
 		(void)fprintf(stderr, "talus: stopped; the same command goes on from there\n");
 	return code ? code : printed;
 }
@@ -166,11 +182,12 @@ static int print_plan(const struct campaign *campaign)
 		if (task->state == TASK_COMPLETE)
 			text_add(&out, "complete, nothing to do\n");
 		else if (task->state == TASK_FAILED)
-			text_add(&out, "failed, left as it is without --retry\n");
+			text_addf(
+				&out, "%s, left as it is without --retry\n", run_state_name(report->state));
 		else if (task->state == TASK_ELSEWHERE)
 			text_add(&out, "another process works on it\n");
-		else if (report->state == RUN_STATE_FAILED)
-			text_add(&out, "failed, start anew\n");
+		else if (report->state == RUN_STATE_FAILED || report->state == RUN_STATE_DAMAGED)
+			text_addf(&out, "%s, start anew\n", run_state_name(report->state));
 		else if (report->state == RUN_STATE_PENDING)
 			text_add(&out, "start\n");
 		else

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "base/stop.h"
 #include "cli/command.h"
 #include "cli/commands.h"
@@ -84,16 +85,6 @@ static int read_options(int argc, char **argv, struct run_command *command)
 	return 0;
 }
 
-/* results/STEM for DIR/STEM.yaml */
-static void add_default_folder(struct text *folder, const char *file)
-{
-	const char *slash = strrchr(file, '/'), *stem = slash ? slash + 1 : file;
-	const char *dot = strrchr(stem, '.');
-
-	text_add(folder, "results/");
-	text_add_bytes(folder, stem, dot && dot > stem ? (size_t)(dot - stem) : strlen(stem));
-}
-
 static int execute(struct run_command *command)
 {
 	struct text folder = {0};
@@ -101,10 +92,12 @@ static int execute(struct run_command *command)
 	struct error err = {0};
 	int code = 0;
 
-	if (command->folder)
-		text_add(&folder, command->folder);
-	else
-		add_default_folder(&folder, command->file);
+	text_add(&folder, command->folder ? command->folder : "results/");
+	if (!command->folder && !file_stem(command->file, &folder)) {
+		text_clean(&folder);
+		return command_usage(
+			"run", "the name of %s is none for a folder of results; name one with -o", command->file);
+	}
 	command->run.say = say;
 	stop_install();
 	if (folder.failed)
@@ -115,7 +108,7 @@ static int execute(struct run_command *command)
 	if (err.code)
 		code = command_fail(&err);
 	text_clean(&folder);
-	return code;
+	return command_flush(code);
 }
 
 static int run_main(int argc, char **argv)

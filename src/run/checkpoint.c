@@ -6,6 +6,7 @@
 
 #include "base/build.h"
 #include "base/file.h"
+#include "base/lock.h"
 #include "run/run_file_parts.h"
 #include "run/trailer.h"
 
@@ -78,6 +79,20 @@ static size_t state_size(const struct attempt *attempt)
 	return values * sizeof(double);
 }
 
+/* A second process in this folder would write under the same temporary names. */
+static int check_lock(const struct attempt *attempt, struct error *err)
+{
+	struct text path = {0};
+	int result = file_path(&path, attempt->folder, "run.lock", err);
+
+	if (result == 0 && attempt->lock && file_is_folder(attempt->folder) &&
+		!lock_is_named(attempt->lock, path.data))
+		result = error_at(err, EX_IOERR, path.data, 0, 0,
+			"was removed or replaced while this process held it: another may work here");
+	text_clean(&path);
+	return result;
+}
+
 /* End an image and bring it to disk with its trailer; the image is freed in every case. */
 static int publish(struct attempt *attempt, struct image *image, const struct run_summary *summary,
 	struct error *err)
@@ -92,7 +107,9 @@ static int publish(struct attempt *attempt, struct image *image, const struct ru
 
 	TRY(image_finish(image, TRAILER_SIZE, &bytes, &size, err));
 	trailer_write(summary, bytes, size, bytes + size);
-	result = file_replace(&place, &(struct file_part){bytes, size + TRAILER_SIZE}, 1, err);
+	result = check_lock(attempt, err);
+	if (result == 0)
+		result = file_replace(&place, &(struct file_part){bytes, size + TRAILER_SIZE}, 1, err);
 	free(bytes);
 	if (result == 0)
 		attempt->keep_newest = true;

@@ -151,9 +151,11 @@ size_t recorder_size(const struct recorder *r)
 static int read_length(struct run_file *file, const char *path, size_t *length, struct error *err)
 {
 	struct dataset data;
+	bool has;
 
 	*length = 0;
-	if (!run_file_has(file, path))
+	TRY(run_file_has(file, path, &has, err));
+	if (!has)
 		return 0;
 	TRY(run_file_dataset(file, path, &data, err));
 	*length = data.extent[0];

@@ -89,6 +89,25 @@ static int failed_before(const struct attempt *attempt, struct run_file *file, s
 	return -1;
 }
 
+/* No generation is good. Only --retry starts anew, and what is damaged is kept under other names. */
+static int leave_damaged(struct attempt *attempt, enum course *course, struct error *err)
+{
+	static const char *const names[][2] = {{RUN_FILE_NEWEST, "run.damaged.h5"},
+		{RUN_FILE_PREVIOUS, "run.previous.damaged.h5"}};
+	size_t used = strlen(err->text);
+
+	if (!attempt->options->retry) {
+		(void)snprintf(err->text + used, sizeof err->text - used,
+			"; --retry starts it anew and keeps these files under other names");
+		return -1;
+	}
+	*err = (struct error){0};
+	for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+		TRY(file_rename(attempt->folder, names[i][0], names[i][1], err));
+	*course = START;
+	return 0;
+}
+
 /* Look at what lies in the folder. With RESUME and NOTHING `*file` is open. */
 static int find_course(
 	struct attempt *attempt, struct run_file **file, enum course *course, struct error *err)
@@ -107,6 +126,8 @@ static int find_course(
 		*course = START;
 		return 0;
 	}
+	if (result != 0 && err->code == EX_DATAERR)
+		return leave_damaged(attempt, course, err);
 	if (result != 0)
 		return -1;
 	TRY(read_past(attempt, *file, err));
@@ -220,13 +241,14 @@ done:
 int run_execute_model(const struct model *model, const struct config *config, const char *folder,
 	const struct run_options *options, struct error *err)
 {
+	struct lock lock = {-1};
 	struct attempt attempt = {.model = model,
 		.config = config,
 		.folder = folder,
 		.options = options,
+		.lock = &lock,
 		.cpu_begin = clock_cpu()};
 	struct run_report before = {0};
-	struct lock lock = {-1};
 	struct text path = {0};
 	int result = -1;
 

@@ -3,6 +3,7 @@
 #include <endian.h>
 #include <hdf5.h>
 #include <hdf5_hl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -169,10 +170,38 @@ unsigned char *run_file_image(const struct run_file *file, size_t *size)
 	return file->bytes;
 }
 
+static herr_t find_no_memory(unsigned n, const H5E_error2_t *entry, void *found)
+{
+	(void)n;
+	*(bool *)found |= entry->maj_num == H5E_RESOURCE && entry->min_num == H5E_NOSPACE;
+	return 0;
+}
+
+/* Whether the last call of HDF5 failed for want of memory. */
+static bool ran_out_of_memory(void)
+{
+	bool found = false;
+
+	(void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_no_memory, &found);
+	return found;
+}
+
+/* The last call of HDF5 failed: because the file is not as it should be, unless HDF5 was out of memory,
+ * which says nothing about the file. `format` has one %s, the name. */
+static int hdf5_error(
+	struct run_file *file, const char *format, const char *name, struct error *err)
+{
+	char what[512];
+
+	if (ran_out_of_memory())
+		return error_set(err, EX_SOFTWARE, "out of memory (HDF5, reading '%s')", name);
+	(void)snprintf(what, sizeof what, format, name); /* NOLINT(clang-diagnostic-format-nonliteral) */
+	return error_at(err, EX_DATAERR, file->path, 0, 0, "%s", what);
+}
+
 static int attribute_error(struct run_file *file, const char *name, struct error *err)
 {
-	return error_at(err, EX_DATAERR, file->path, 0, 0,
-		"attribute '%s' is absent or not of the right type", name);
+	return hdf5_error(file, "attribute '%s' is absent or not of the right type", name, err);
 }
 
 int run_file_text(struct run_file *file, const char *name, struct text *out, struct error *err)
@@ -217,21 +246,23 @@ int run_file_real(struct run_file *file, const char *name, double *out, struct e
 }
 
 /* Open a dataset of numbers and tell its shape. */
-static hid_t open_dataset(struct run_file *file, const char *path, struct dataset *shape)
+static hid_t open_dataset(
+	struct run_file *file, const char *path, struct dataset *shape, struct error *err)
 {
 	hsize_t extent[3] = {0};
 	hid_t id = H5Dopen2(file->id, path, H5P_DEFAULT);
 	hid_t space = id < 0 ? -1 : H5Dget_space(id);
-	bool right = space >= 0;
 
-	shape->rank = right ? H5Sget_simple_extent_ndims(space) : -1;
-	right = right && shape->rank >= 0 && shape->rank <= 3 &&
-			H5Sget_simple_extent_dims(space, extent, NULL) >= 0;
+	shape->rank = space < 0 ? -1 : H5Sget_simple_extent_ndims(space);
+	if (shape->rank < 0 || shape->rank > 3 || H5Sget_simple_extent_dims(space, extent, NULL) < 0) {
+		hdf5_error(file, "holds no dataset '%s'", path, err);
+		shape->rank = -1;
+	}
 	for (int i = 0; i < 3; i++)
 		shape->extent[i] = extent[i];
 	if (space >= 0)
 		(void)H5Sclose(space);
-	if (id >= 0 && !right) {
+	if (id >= 0 && shape->rank < 0) {
 		(void)H5Dclose(id);
 		id = -1;
 	}
@@ -255,18 +286,18 @@ int run_file_dataset(
 	struct run_file *file, const char *path, struct dataset *out, struct error *err)
 {
 	size_t count;
-	hid_t id = open_dataset(file, path, out);
+	hid_t id = open_dataset(file, path, out, err);
 	int result = -1;
 
 	out->values = NULL;
 	if (id < 0)
-		return error_at(err, EX_DATAERR, file->path, 0, 0, "holds no dataset '%s'", path);
+		return -1;
 	count = shape_count(out);
 	out->values = calloc(count + 1, sizeof *out->values); /* HDF5 leaves unwritten values alone */
 	if (!out->values)
 		error_memory(err, count * sizeof *out->values);
 	else if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out->values) < 0)
-		error_at(err, EX_DATAERR, file->path, 0, 0, "dataset '%s' cannot be read", path);
+		hdf5_error(file, "dataset '%s' cannot be read", path, err);
 	else
 		result = 0;
 	(void)H5Dclose(id);
@@ -281,16 +312,16 @@ int run_file_fill(
 	struct run_file *file, const char *path, double *values, size_t count, struct error *err)
 {
 	struct dataset shape;
-	hid_t id = open_dataset(file, path, &shape);
+	hid_t id = open_dataset(file, path, &shape, err);
 	int result = 0;
 
 	if (id < 0)
-		return error_at(err, EX_DATAERR, file->path, 0, 0, "holds no dataset '%s'", path);
+		return -1;
 	if (shape_count(&shape) != count)
 		result = error_at(err, EX_DATAERR, file->path, 0, 0,
 			"dataset '%s' has %zu values instead of %zu", path, shape_count(&shape), count);
 	else if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
-		result = error_at(err, EX_DATAERR, file->path, 0, 0, "dataset '%s' cannot be read", path);
+		result = hdf5_error(file, "dataset '%s' cannot be read", path, err);
 	(void)H5Dclose(id);
 	return result;
 }
@@ -305,28 +336,33 @@ static herr_t read_scale(hid_t dataset, unsigned axis, hid_t scale, void *length
 	return space < 0 ? -1 : H5Sclose(space);
 }
 
-size_t run_file_scale_length(struct run_file *file, const char *path, int axis)
+int run_file_scale_length(
+	struct run_file *file, const char *path, int axis, size_t *length, struct error *err)
 {
 	hid_t id = H5Dopen2(file->id, path, H5P_DEFAULT);
-	size_t length = 0;
+	htri_t scale = id < 0 ? -1 : H5DSis_scale(id);
+	int result = 0;
 
-	if (id < 0)
-		return 0;
-	if (H5DSis_scale(id) > 0)
-		(void)read_scale(id, 0, id, &length);
-	else
-		(void)H5DSiterate_scales(id, (unsigned)axis, NULL, read_scale, &length);
-	(void)H5Dclose(id);
-	return length;
+	*length = 0;
+	if (scale > 0)
+		result = read_scale(id, 0, id, length);
+	else if (scale == 0)
+		result = H5DSiterate_scales(id, (unsigned)axis, NULL, read_scale, length);
+	if (scale < 0 || result < 0)
+		result = hdf5_error(file, "the axes of dataset '%s' cannot be read", path, err);
+	if (id >= 0)
+		(void)H5Dclose(id);
+	return result < 0 ? -1 : 0;
 }
 
-bool run_file_has(struct run_file *file, const char *path)
+int run_file_has(struct run_file *file, const char *path, bool *has, struct error *err)
 {
-	hid_t id = H5Oopen(file->id, path, H5P_DEFAULT);
+	htri_t there = H5Lexists(file->id, path, H5P_DEFAULT);
 
-	if (id >= 0)
-		(void)H5Oclose(id);
-	return id >= 0;
+	*has = there > 0; /* it also fails where a group on the way is not there */
+	if (there < 0 && ran_out_of_memory())
+		return error_set(err, EX_SOFTWARE, "out of memory (HDF5, looking for '%s')", path);
+	return 0;
 }
 
 static herr_t add_name(hid_t group, const char *name, const H5L_info_t *info, void *out)
@@ -344,6 +380,6 @@ static herr_t add_name(hid_t group, const char *name, const H5L_info_t *info, vo
 int run_file_names(struct run_file *file, struct text *out, struct error *err)
 {
 	if (H5Lvisit(file->id, H5_INDEX_NAME, H5_ITER_INC, add_name, out) < 0)
-		return error_at(err, EX_DATAERR, file->path, 0, 0, "its datasets cannot be listed");
+		return hdf5_error(file, "its datasets cannot be listed from '%s' on", "/", err);
 	return out->failed ? error_memory(err, out->capacity) : 0;
 }

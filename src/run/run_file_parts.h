@@ -23,10 +23,12 @@ unsigned char *run_file_image(const struct run_file *file, size_t *size);
 /* The path of every dataset, sorted, one a line. */
 int run_file_names(struct run_file *file, struct text *out, struct error *err);
 
-bool run_file_has(struct run_file *file, const char *path);
+/* Whether the file holds `path`. EX_SOFTWARE. */
+int run_file_has(struct run_file *file, const char *path, bool *has, struct error *err);
 
 /* The length of the scale that axis `axis` of a dataset has; 0 without a scale. */
-size_t run_file_scale_length(struct run_file *file, const char *path, int axis);
+int run_file_scale_length(
+	struct run_file *file, const char *path, int axis, size_t *length, struct error *err);
 
 /* Read a dataset of exactly `count` values. EX_DATAERR. */
 int run_file_fill(

@@ -34,17 +34,21 @@ static int check_lengths(struct run_file *file, struct text *out, struct error *
 		 path = strtok_r(NULL, "\n", &rest)) {
 		if (run_file_dataset(file, path, &data, err) != 0) {
 			result = -1;
-			break;
+			goto done;
 		}
 		free(data.values);
 		for (int i = 0; i < data.rank; i++) {
-			size_t length = run_file_scale_length(file, path, i);
+			size_t length;
 
+			result = run_file_scale_length(file, path, i, &length, err);
+			if (result != 0)
+				goto done;
 			if (length != data.extent[i])
 				text_addf(out, "%s: axis %d has %zu values, its scale %zu\n", path, i,
 					data.extent[i], length);
 		}
 	}
+done:
 	text_clean(&names);
 	return result;
 }
@@ -53,9 +57,12 @@ static int check_mass(struct run_file *file, struct text *out, struct error *err
 {
 	struct dataset mass = {0}, outflow = {0};
 	double first, worst = 0;
+	bool has_mass, has_outflow;
 	int result = -1;
 
-	if (!run_file_has(file, "/mass") || !run_file_has(file, "/mass_outflow"))
+	TRY(run_file_has(file, "/mass", &has_mass, err));
+	TRY(run_file_has(file, "/mass_outflow", &has_outflow, err));
+	if (!has_mass || !has_outflow)
 		return 0;
 	if (run_file_dataset(file, "/mass", &mass, err) != 0 ||
 		run_file_dataset(file, "/mass_outflow", &outflow, err) != 0)
@@ -82,12 +89,14 @@ done:
 int verify_run_file(struct run_file *file, struct text *out, struct error *err)
 {
 	struct dataset times = {0}, profile_times = {0};
+	bool profiles;
 	int result = -1;
 
-	if (run_file_dataset(file, "/time", &times, err) != 0)
+	if (run_file_dataset(file, "/time", &times, err) != 0 ||
+		run_file_has(file, "/profile_time", &profiles, err) != 0)
 		goto done;
 	check_growth("/time", &times, out);
-	if (run_file_has(file, "/profile_time")) {
+	if (profiles) {
 		if (run_file_dataset(file, "/profile_time", &profile_times, err) != 0)
 			goto done;
 		check_growth("/profile_time", &profile_times, out);

@@ -28,9 +28,10 @@ static void tell_missing(
 		run->id, why, *reason ? ": " : "", reason);
 }
 
-/* Open a run's file if the run is complete; NULL if not, and `tell` says whether to say so. */
-static struct run_file *open_run(
-	struct builder *builder, const struct experiment_run *run, bool tell)
+/* Open a run's file if the run is complete; NULL if not, and `tell` says whether to say so. EX_SOFTWARE
+ * out of memory, which says nothing about the run. */
+static int open_run(struct builder *builder, const struct experiment_run *run, bool tell,
+	struct run_file **out, struct error *fatal)
 {
 	struct run_report report;
 	struct run_file *file = NULL;
@@ -41,9 +42,10 @@ static struct run_file *open_run(
 	if (report.state != RUN_STATE_COMPLETE) {
 		if (tell)
 			tell_missing(builder, run, run_state_name(report.state), report.reason);
-		return NULL;
+		return 0;
 	}
-	if (run_file_open_newest(run->folder, &file, &warning, &err) && tell) {
+	if (run_file_open_newest(run->folder, &file, &warning, &err) && tell &&
+		err.code != EX_SOFTWARE) {
 		char message[sizeof err.text + sizeof err.file + 32];
 
 		tell_missing(builder, run, "damaged", error_format(&err, message, sizeof message));
@@ -51,21 +53,29 @@ static struct run_file *open_run(
 	if (file && warning.length)
 		text_addf(&builder->table->notes, "%s: %s\n", run->id, text_string(&warning));
 	text_clean(&warning);
-	return file;
+	*out = file;
+	if (err.code != EX_SOFTWARE)
+		return 0;
+	*fatal = err;
+	return -1;
 }
 
-static struct run_file *open_partner(struct builder *builder, size_t index)
+static int open_partner(
+	struct builder *builder, size_t index, struct run_file **out, struct error *fatal)
 {
-	if (builder->partner && builder->partner_index == index)
-		return builder->partner;
-	run_file_close(builder->partner);
-	builder->partner = open_run(builder, &builder->experiment->runs[index], false);
-	builder->partner_index = index;
-	return builder->partner;
+	if (!builder->partner || builder->partner_index != index) {
+		run_file_close(builder->partner);
+		builder->partner = NULL;
+		builder->partner_index = index;
+		TRY(open_run(
+			builder, &builder->experiment->runs[index], false, &builder->partner, fatal));
+	}
+	*out = builder->partner;
+	return 0;
 }
 
-static void measure(struct builder *builder, size_t index, struct run_file *file,
-	const struct measure *measure, double *value)
+static int measure(struct builder *builder, size_t index, struct run_file *file,
+	const struct measure *measure, double *value, struct error *fatal)
 {
 	const struct experiment_run *run = &builder->experiment->runs[index];
 	const struct metric *metric = measure->metric;
@@ -77,20 +87,28 @@ static void measure(struct builder *builder, size_t index, struct run_file *file
 	if (metric->partner != PARTNER_NONE) {
 		size_t partner = builder->layout->places[index].partner[metric->partner];
 
-		sample.partner = partner == index ? file : open_partner(builder, partner);
+		if (partner == index)
+			sample.partner = file;
+		else
+			TRY(open_partner(builder, partner, &sample.partner, fatal));
 		if (!sample.partner) {
 			tell_missing(builder, run, "lacks the run it is compared with",
 				builder->experiment->runs[partner].id);
-			return;
+			return 0;
 		}
 	}
 	if (metric->value(&sample, value, &err)) {
 		*value = NAN;
+		if (err.code == EX_SOFTWARE) {
+			*fatal = err;
+			return -1;
+		}
 		tell_missing(builder, run, metric->name, err.text);
 	} else if (!isfinite(*value)) {
 		*value = NAN;
 		tell_missing(builder, run, metric->name, "is not a number");
 	}
+	return 0;
 }
 
 static int measure_runs(struct builder *builder, struct error *err)
@@ -104,20 +122,21 @@ static int measure_runs(struct builder *builder, struct error *err)
 	for (size_t i = 0; i < runs * measures; i++)
 		builder->values[i] = NAN;
 	for (size_t i = 0; i < runs; i++) {
-		struct run_file *file;
+		struct run_file *file = NULL;
 
 		if (layout->places[i].row == LAYOUT_NOWHERE)
 			continue;
-		file = open_run(builder, &builder->experiment->runs[i], true);
+		TRY(open_run(builder, &builder->experiment->runs[i], true, &file, err));
 		if (!file)
 			continue;
-		for (size_t m = 0; m < measures; m++)
-			measure(builder, i, file, &layout->measures[m], &builder->values[i * measures + m]);
+		for (size_t m = 0; m < measures && !err->code; m++)
+			(void)measure(builder, i, file, &layout->measures[m],
+				&builder->values[i * measures + m], err);
 		provenance_add(&builder->provenance, file);
 		run_file_close(file);
+		if (err->code)
+			return -1;
 	}
-	run_file_close(builder->partner);
-	builder->partner = NULL;
 	return 0;
 }
 
@@ -333,6 +352,7 @@ int table_build(struct table *table, const struct experiment *experiment,
 	else
 		result = 0;
 done:
+	run_file_close(builder.partner);
 	free(builder.values);
 	provenance_clean(&builder.provenance);
 	layout_clean(&layout);
