@@ -72,6 +72,8 @@ int reader_text(const struct reader *reader, const struct node *node, const char
 {
 	if (node->kind != NODE_SCALAR || !node->text[0])
 		return reader_fail(reader, node, "one text is wanted here");
+	for (size_t i = strlen(node->text); i > 1 && strchr(" \t\n", node->text[i - 1]); i--)
+		node->text[i - 1] = '\0';
 	for (char *c = node->text; *c; c++)
 		if (*c == '\n' || *c == '\t')
 			*c = ' ';
