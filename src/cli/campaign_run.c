@@ -108,7 +108,7 @@ static void tell_failure(const struct task *task)
 		(void)fprintf(stderr, "; the end of %s/run.log:\n", task->run->folder);
 		print_log(text_string(&log));
 	} else {
-		(void)fprintf(stderr, ": %s\n", task->report.reason);
+		(void)fprintf(stderr, "%s%s\n", *task->report.reason ? ": " : "", task->report.reason);
 	}
 	text_clean(&log);
 }

@@ -8,7 +8,6 @@ if [[ ! ${MOUNTED:-} ]]; then
 	}
 	MOUNTED=1 exec unshare --mount --map-root-user bash "$0"
 fi
-set -f
 mkdir disk
 full() # KILOBYTES: a disk of that size
 {
@@ -76,14 +75,14 @@ echo '== gone in the middle'
 cat >longer.yaml <<<"$(sed 's/end: 1 s/end: 100 s/' long.yaml)"
 mkdir -p gone
 talus run --quiet longer.yaml --set checkpoint.every_steps=5 -o gone/run 2>message &
-wait_for 20 grep -q started gone/run/run.log
+wait_for 20 grep -qs started gone/run/run.log
 mv gone away
 wait $!
 echo "exit $?"
 cat message
 talus verify away/run >log || cat log
 talus run --quiet longer.yaml --set checkpoint.every_steps=5 -o away/run 2>message &
-wait_for 20 grep -q resumed away/run/run.log
+wait_for 20 grep -qs resumed away/run/run.log
 rm away/run/run.lock
 wait $!
 echo "exit $?"
