@@ -94,6 +94,13 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(LIB)
 	@echo "LD $@"
 	$(Q)$(CC) $(OPT) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(call pkg_config,--libs,cmocka) $(PKG_LIBS)
 
+# To be preloaded by tests; plain C, whatever the build is.
+$(BUILD)/tests/%.so: tests/%.c
+	@mkdir -p $(@D)
+	@echo "LD $@"
+	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O1 $(WARN) -fPIC -shared -o $@ $< -ldl
+$(BUILD)/tests/faults/test_allocations: | $(BUILD)/tests/faults/fail_alloc.so
+
 # Packages first, then everything that asks about them in a make of its own.
 
 ## deps: install the Debian packages that building and testing need, where missing

@@ -45,6 +45,7 @@ struct run_report {
 	double wall_left;   /* estimated seconds to the end, NaN: unknown */
 	double cpu_seconds; /* so far, all attempts */
 	int attempts;
+	bool unknown;      /* memory ran out: nothing here is to be relied on */
 	char reason[1024]; /* why it failed or stopped, "" if it did not */
 };
 

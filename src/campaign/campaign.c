@@ -23,6 +23,8 @@ int campaign_create(struct campaign *campaign, const struct experiment *experime
 
 		task->run = &experiment->runs[i];
 		task_look(campaign, task);
+		if (task->report.unknown)
+			return error_memory(err, sizeof *task);
 		task->skipped = task->state == TASK_COMPLETE || task->state == TASK_FAILED;
 	}
 	return 0;

@@ -62,6 +62,10 @@ static void reap(struct pool *pool)
 
 		if (task->state != TASK_RUNNING || !task_reap(pool->campaign, task))
 			continue;
+		if (task->report.unknown) {
+			error_memory(&pool->campaign->fault, sizeof task->report);
+			task->state = TASK_INTERRUPTED;
+		}
 		blame_disk(pool, task);
 		if (is_over(task))
 			tell_end(pool, task);

@@ -16,7 +16,7 @@ enum { REFUSALS_MAX = 2 };
 void task_look(const struct campaign *campaign, struct task *task)
 {
 	run_report_read(task->run->folder, &task->report);
-	if (task->state != TASK_WAITING && task->state != TASK_ELSEWHERE)
+	if (task->report.unknown || (task->state != TASK_WAITING && task->state != TASK_ELSEWHERE))
 		return;
 	switch (task->report.state) {
 	case RUN_STATE_RUNNING:

@@ -129,8 +129,14 @@ int campaign_status_main(
 		(void)error_memory(&err, experiment->run_count * sizeof *reports);
 		return command_fail(&err);
 	}
-	for (size_t i = 0; i < experiment->run_count; i++)
+	for (size_t i = 0; i < experiment->run_count; i++) {
 		run_report_read(experiment->runs[i].folder, &reports[i]);
+		if (reports[i].unknown) {
+			(void)error_memory(&err, sizeof *reports);
+			free(reports);
+			return command_fail(&err);
+		}
+	}
 	count_states(experiment, reports, counts);
 	if (arguments->json) {
 		print_json(experiment, reports, counts, &out);

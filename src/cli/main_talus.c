@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/build.h"
+#include "base/crash.h"
 #include "cli/command.h"
 #include "cli/commands.h"
 
@@ -19,7 +20,7 @@ static void add_help(struct text *out)
 	text_add(out, "\n`talus COMMAND --help` tells more; `talus --version` tells the build.\n");
 }
 
-int main(int argc, char **argv)
+static int run_command(int argc, char **argv)
 {
 	struct text out = {0};
 
@@ -43,4 +44,10 @@ int main(int argc, char **argv)
 			return commands[i]->main(argc - 1, argv + 1);
 	(void)fprintf(stderr, "talus: unknown command '%s'; see `talus help`\n", argv[1]);
 	return EX_USAGE;
+}
+
+int main(int argc, char **argv)
+{
+	crash_install();
+	crash_exit(run_command(argc, argv));
 }

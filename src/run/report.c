@@ -61,6 +61,7 @@ static void read_content(const char *folder, struct run_report *report)
 		(void)snprintf(report->reason, sizeof report->reason, "%s", text_string(&reason));
 done:
 	run_file_close(file);
+	report->unknown |= ignored.code == EX_SOFTWARE;
 	text_clean(&warning);
 	text_clean(&config_text);
 	text_clean(&reason);
@@ -76,6 +77,7 @@ static void read_run_file(const char *folder, struct run_report *report)
 
 	if (summarise(folder, RUN_FILE_NEWEST, &summary, &newest) != 0 &&
 		summarise(folder, RUN_FILE_PREVIOUS, &summary, &previous) != 0) {
+		report->unknown |= newest.code == EX_SOFTWARE || previous.code == EX_SOFTWARE;
 		if (newest.code == EX_NOINPUT && previous.code == EX_NOINPUT)
 			return;
 		report->state = RUN_STATE_DAMAGED;
@@ -87,13 +89,14 @@ static void read_run_file(const char *folder, struct run_report *report)
 	report->time = summary.time;
 }
 
-static bool is_running(const char *folder)
+static bool is_running(const char *folder, struct run_report *report)
 {
 	struct error ignored = {0};
 	struct text path = {0};
-	bool held =
-		file_path(&path, folder, "run.lock", &ignored) == 0 && lock_is_held(text_string(&path));
+	bool known = file_path(&path, folder, "run.lock", &ignored) == 0;
+	bool held = known && lock_is_held(text_string(&path));
 
+	report->unknown |= !known;
 	text_clean(&path);
 	return held;
 }
@@ -105,7 +108,7 @@ void run_report_read(const char *folder, struct run_report *report)
 
 	*report = status;
 	report->state = RUN_STATE_PENDING;
-	if (is_running(folder)) {
+	if (is_running(folder, report)) {
 		/* the run file is behind by up to a checkpoint; status.yaml by seconds */
 		report->state = RUN_STATE_RUNNING;
 		report->reason[0] = '\0';

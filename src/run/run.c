@@ -30,6 +30,10 @@ static int compare_config(const struct attempt *attempt, struct run_file *file, 
 	if (config_parse(&config, text_string(&stored), stored.length, run_file_path(file), NULL, 0,
 			&unreadable) == 0)
 		config_differences(&config, attempt->config, &keys);
+	if (unreadable.code == EX_SOFTWARE) {
+		*err = unreadable;
+		goto done;
+	}
 	for (char *key = keys.data ? strtok_r(keys.data, "\n", &rest) : NULL; key;
 		 key = strtok_r(NULL, "\n", &rest))
 		text_addf(&list, list.length ? ", %s" : "%s", key);

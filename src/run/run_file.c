@@ -16,6 +16,7 @@ struct run_file {
 	unsigned char *bytes; /* the image and what is behind it */
 	size_t size;          /* of the image */
 	hid_t id;             /* the image, opened by HDF5 */
+	bool verified;        /* its digest is right, and it is as long as it says */
 	struct run_summary summary;
 	char *path;
 };
@@ -110,14 +111,13 @@ int run_file_open(const char *path, struct run_file **out, const char **warning,
 	}
 	if (file_read(path, &file->bytes, &size, err) != 0 || verify(file, size, &trailer, err) != 0)
 		goto failed;
-	file->id = image_open(file->bytes, file->size, false);
+	/* an image of ours whose digest is right is good: to fall back would throw it away */
+	file->verified = trailer && superblock_length(file->bytes, file->size) == file->size;
+	file->id = image_open(file->bytes, file->size, false, err);
 	if (file->id < 0) {
-		/* an image of ours whose digest is right is good: to fall back would throw it away */
-		bool ours = trailer && superblock_length(file->bytes, file->size) == file->size;
-
-		error_at(err, ours ? EX_SOFTWARE : EX_DATAERR, path, 0, 0,
-			ours ? "is whole, but HDF5 cannot open it (out of memory?)"
-				 : "is not a run file: HDF5 cannot open it");
+		error_at(err, file->verified ? EX_SOFTWARE : EX_DATAERR, path, 0, 0,
+			file->verified ? "is whole, but HDF5 cannot open it (out of memory?)"
+						   : "is not a run file: HDF5 cannot open it");
 		goto failed;
 	}
 	if (!trailer && summarise(file, err) != 0)
@@ -170,43 +170,37 @@ unsigned char *run_file_image(const struct run_file *file, size_t *size)
 	return file->bytes;
 }
 
-static herr_t find_no_memory(unsigned n, const H5E_error2_t *entry, void *found)
+/* HDF5 cannot read `name`. Of a file whose digest is right that is no fault of the file: memory ran out. */
+static int unreadable(struct run_file *file, const char *what, const char *name, struct error *err)
 {
-	(void)n;
-	*(bool *)found |= entry->maj_num == H5E_RESOURCE && entry->min_num == H5E_NOSPACE;
-	return 0;
-}
-
-/* Whether the last call of HDF5 failed for want of memory. */
-static bool ran_out_of_memory(void)
-{
-	bool found = false;
-
-	(void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_no_memory, &found);
-	return found;
-}
-
-/* The last call of HDF5 failed: because the file is not as it should be, unless HDF5 was out of memory,
- * which says nothing about the file. `format` has one %s, the name. */
-static int hdf5_error(
-	struct run_file *file, const char *format, const char *name, struct error *err)
-{
-	char what[512];
-
-	if (ran_out_of_memory())
-		return error_set(err, EX_SOFTWARE, "out of memory (HDF5, reading '%s')", name);
-	(void)snprintf(what, sizeof what, format, name); /* NOLINT(clang-diagnostic-format-nonliteral) */
-	return error_at(err, EX_DATAERR, file->path, 0, 0, "%s", what);
+	if (file->verified)
+		return error_set(
+			err, EX_SOFTWARE, "HDF5 cannot read %s '%s' (out of memory?)", what, name);
+	return error_at(err, EX_DATAERR, file->path, 0, 0, "%s '%s' cannot be read", what, name);
 }
 
 static int attribute_error(struct run_file *file, const char *name, struct error *err)
 {
-	return hdf5_error(file, "attribute '%s' is absent or not of the right type", name, err);
+	return error_at(err, EX_DATAERR, file->path, 0, 0,
+		"attribute '%s' is absent or not of the right type", name);
+}
+
+/* Negative with `err` set when there is no such attribute, or none that HDF5 can open. */
+static hid_t open_attribute(struct run_file *file, const char *name, struct error *err)
+{
+	htri_t there = H5Aexists(file->id, name);
+	hid_t id = there > 0 ? H5Aopen(file->id, name, H5P_DEFAULT) : -1;
+
+	if (there == 0)
+		(void)attribute_error(file, name, err);
+	else if (id < 0)
+		(void)unreadable(file, "attribute", name, err);
+	return id;
 }
 
 int run_file_text(struct run_file *file, const char *name, struct text *out, struct error *err)
 {
-	hid_t id = H5Aopen(file->id, name, H5P_DEFAULT), type = id < 0 ? -1 : H5Aget_type(id);
+	hid_t id = open_attribute(file, name, err), type = id < 0 ? -1 : H5Aget_type(id);
 	size_t size = type < 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0
 					  ? 0
 					  : H5Tget_size(type);
@@ -215,11 +209,13 @@ int run_file_text(struct run_file *file, const char *name, struct text *out, str
 
 	if (size && !value) {
 		error_memory(err, size + 1);
-	} else if (!size || H5Aread(id, type, value) < 0) {
-		attribute_error(file, name, err);
-	} else {
+	} else if (id >= 0 && (type < 0 || (size && H5Aread(id, type, value) < 0))) {
+		unreadable(file, "attribute", name, err);
+	} else if (size) {
 		text_add(out, value);
 		result = out->failed ? error_memory(err, size) : 0;
+	} else {
+		attribute_error(file, name, err);
 	}
 	free(value);
 	if (type >= 0)
@@ -231,13 +227,22 @@ int run_file_text(struct run_file *file, const char *name, struct text *out, str
 
 int run_file_real(struct run_file *file, const char *name, double *out, struct error *err)
 {
-	hid_t id = H5Aopen(file->id, name, H5P_DEFAULT), space = id < 0 ? -1 : H5Aget_space(id);
-	int result = 0;
+	hid_t id = open_attribute(file, name, err), space = id < 0 ? -1 : H5Aget_space(id),
+		  type = space < 0 ? -1 : H5Aget_type(id);
+	H5T_class_t kind = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
+	int result = -1;
 
-	/* one number: HDF5 itself refuses to convert text to it */
-	if (space < 0 || H5Sget_simple_extent_npoints(space) != 1 ||
-		H5Aread(id, H5T_NATIVE_DOUBLE, out) < 0)
-		result = attribute_error(file, name, err);
+	if (id >= 0 && type < 0)
+		unreadable(file, "attribute", name, err);
+	else if (id >= 0 && ((kind != H5T_FLOAT && kind != H5T_INTEGER) ||
+							H5Sget_simple_extent_npoints(space) != 1))
+		attribute_error(file, name, err);
+	else if (id >= 0 && H5Aread(id, H5T_NATIVE_DOUBLE, out) < 0)
+		unreadable(file, "attribute", name, err);
+	else
+		result = id < 0 ? -1 : 0;
+	if (type >= 0)
+		(void)H5Tclose(type);
 	if (space >= 0)
 		(void)H5Sclose(space);
 	if (id >= 0)
@@ -250,14 +255,22 @@ static hid_t open_dataset(
 	struct run_file *file, const char *path, struct dataset *shape, struct error *err)
 {
 	hsize_t extent[3] = {0};
-	hid_t id = H5Dopen2(file->id, path, H5P_DEFAULT);
-	hid_t space = id < 0 ? -1 : H5Dget_space(id);
+	hid_t id, space;
+	bool has = false;
 
-	shape->rank = space < 0 ? -1 : H5Sget_simple_extent_ndims(space);
-	if (shape->rank < 0 || shape->rank > 3 || H5Sget_simple_extent_dims(space, extent, NULL) < 0) {
-		hdf5_error(file, "holds no dataset '%s'", path, err);
-		shape->rank = -1;
-	}
+	shape->rank = -1;
+	if (run_file_has(file, path, &has, err) != 0)
+		return -1;
+	id = has ? H5Dopen2(file->id, path, H5P_DEFAULT) : -1;
+	space = id < 0 ? -1 : H5Dget_space(id);
+	if (!has)
+		error_at(err, EX_DATAERR, file->path, 0, 0, "holds no dataset '%s'", path);
+	else if (space < 0)
+		unreadable(file, "dataset", path, err);
+	else if (H5Sget_simple_extent_ndims(space) > 3)
+		error_at(err, EX_DATAERR, file->path, 0, 0, "dataset '%s' has too many axes", path);
+	else if ((shape->rank = H5Sget_simple_extent_dims(space, extent, NULL)) < 0)
+		unreadable(file, "dataset", path, err);
 	for (int i = 0; i < 3; i++)
 		shape->extent[i] = extent[i];
 	if (space >= 0)
@@ -297,7 +310,7 @@ int run_file_dataset(
 	if (!out->values)
 		error_memory(err, count * sizeof *out->values);
 	else if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out->values) < 0)
-		hdf5_error(file, "dataset '%s' cannot be read", path, err);
+		unreadable(file, "dataset", path, err);
 	else
 		result = 0;
 	(void)H5Dclose(id);
@@ -321,7 +334,7 @@ int run_file_fill(
 		result = error_at(err, EX_DATAERR, file->path, 0, 0,
 			"dataset '%s' has %zu values instead of %zu", path, shape_count(&shape), count);
 	else if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
-		result = hdf5_error(file, "dataset '%s' cannot be read", path, err);
+		result = unreadable(file, "dataset", path, err);
 	(void)H5Dclose(id);
 	return result;
 }
@@ -349,20 +362,26 @@ int run_file_scale_length(
 	else if (scale == 0)
 		result = H5DSiterate_scales(id, (unsigned)axis, NULL, read_scale, length);
 	if (scale < 0 || result < 0)
-		result = hdf5_error(file, "the axes of dataset '%s' cannot be read", path, err);
+		result = unreadable(file, "the axes of dataset", path, err);
 	if (id >= 0)
 		(void)H5Dclose(id);
 	return result < 0 ? -1 : 0;
 }
 
+/* H5Lexists fails where a group on the way is absent: so go down step by step. */
 int run_file_has(struct run_file *file, const char *path, bool *has, struct error *err)
 {
-	htri_t there = H5Lexists(file->id, path, H5P_DEFAULT);
+	char part[512];
+	size_t end = *path == '/';
+	htri_t there = 1;
 
-	*has = there > 0; /* it also fails where a group on the way is not there */
-	if (there < 0 && ran_out_of_memory())
-		return error_set(err, EX_SOFTWARE, "out of memory (HDF5, looking for '%s')", path);
-	return 0;
+	while (there > 0 && path[end]) {
+		end += 1 + strcspn(path + end + 1, "/");
+		(void)snprintf(part, sizeof part, "%.*s", (int)end, path);
+		there = H5Lexists(file->id, part, H5P_DEFAULT);
+	}
+	*has = there > 0;
+	return there < 0 ? unreadable(file, "the name", path, err) : 0;
 }
 
 static herr_t add_name(hid_t group, const char *name, const H5L_info_t *info, void *out)
@@ -380,6 +399,6 @@ static herr_t add_name(hid_t group, const char *name, const H5L_info_t *info, vo
 int run_file_names(struct run_file *file, struct text *out, struct error *err)
 {
 	if (H5Lvisit(file->id, H5_INDEX_NAME, H5_ITER_INC, add_name, out) < 0)
-		return hdf5_error(file, "its datasets cannot be listed from '%s' on", "/", err);
+		return unreadable(file, "the list of datasets of", "/", err);
 	return out->failed ? error_memory(err, out->capacity) : 0;
 }

@@ -86,6 +86,7 @@ bool status_read(const char *folder, struct run_report *report)
 		if (reason && reason->text)
 			(void)snprintf(report->reason, sizeof report->reason, "%s", reason->text);
 	}
+	report->unknown |= ignored.code == EX_SOFTWARE;
 	node_clean(&root);
 	text_clean(&path);
 	return found;

@@ -39,6 +39,8 @@ static int open_run(struct builder *builder, const struct experiment_run *run, b
 	struct error err = {0};
 
 	run_report_read(run->folder, &report);
+	if (report.unknown)
+		return error_memory(fatal, sizeof report);
 	if (report.state != RUN_STATE_COMPLETE) {
 		if (tell)
 			tell_missing(builder, run, run_state_name(report.state), report.reason);

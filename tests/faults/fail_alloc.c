@@ -1,0 +1,116 @@
+/* To be preloaded: the n-th allocation of the process fails, wherever it is asked for, in libc, HDF5 and
+ * libyaml too. $FAIL_ALLOC is n, with a '+' behind it for all from the n-th on. $COUNT_ALLOC names a file
+ * that gets the number of allocations at the end. Children are left in peace. */
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static long count, fail_at;
+static bool armed, stays;
+static const char *count_file;
+
+/* dlsym may allocate before it has told where to. */
+static char early[8192];
+static size_t early_used;
+
+static void *early_alloc(size_t size)
+{
+	void *block = early + early_used;
+
+	early_used += (size + 15) & ~(size_t)15;
+	return early_used <= sizeof early ? block : NULL;
+}
+
+static bool is_early(const void *block)
+{
+	return (const char *)block >= early && (const char *)block < early + sizeof early;
+}
+
+static bool fails(void)
+{
+	if (!armed)
+		return false;
+	count++;
+	if (!fail_at || (stays ? count < fail_at : count != fail_at))
+		return false;
+	errno = ENOMEM;
+	return true;
+}
+
+void *malloc(size_t size)
+{
+	static void *(*next)(size_t);
+	static bool asking;
+
+	if (!next) {
+		if (asking)
+			return early_alloc(size);
+		asking = true;
+		*(void **)&next = dlsym(RTLD_NEXT, "malloc");
+	}
+	return fails() ? NULL : next(size);
+}
+
+void *calloc(size_t number, size_t size)
+{
+	static void *(*next)(size_t, size_t);
+	static bool asking;
+
+	if (!next) {
+		if (asking)
+			return early_alloc(number * size);
+		asking = true;
+		*(void **)&next = dlsym(RTLD_NEXT, "calloc");
+	}
+	return fails() ? NULL : next(number, size);
+}
+
+void *realloc(void *block, size_t size)
+{
+	static void *(*next)(void *, size_t);
+
+	if (!next)
+		*(void **)&next = dlsym(RTLD_NEXT, "realloc");
+	return fails() ? NULL : next(block, size);
+}
+
+void free(void *block)
+{
+	static void (*next)(void *);
+
+	if (!next)
+		*(void **)&next = dlsym(RTLD_NEXT, "free");
+	if (!is_early(block))
+		next(block);
+}
+
+__attribute__((constructor)) static void arm(void)
+{
+	const char *wanted = getenv("FAIL_ALLOC");
+
+	count_file = getenv("COUNT_ALLOC");
+	fail_at = wanted ? strtol(wanted, NULL, 10) : 0;
+	stays = wanted && strchr(wanted, '+');
+	(void)unsetenv("LD_PRELOAD");
+	armed = true;
+}
+
+/* Not in a child that was forked and has not become another program. */
+__attribute__((destructor)) static void tell(void)
+{
+	char text[32];
+	int fd, length;
+
+	armed = false;
+	fd = count_file ? open(count_file, O_WRONLY | O_CREAT | O_TRUNC, 0666) : -1;
+	if (fd < 0)
+		return;
+	length = snprintf(text, sizeof text, "%ld\n", count);
+	(void)!write(fd, text, (size_t)length);
+	(void)close(fd);
+}
