@@ -33,6 +33,7 @@ PROGRAMS := $(BIN)/talus $(BIN)/talus-tables
 TEST_SOURCES := $(wildcard tests/*/test_*.c)
 TEST_PROGRAMS := $(TEST_SOURCES:%.c=$(BUILD)/%)
 CLI_CASES := $(wildcard tests/cli/*.sh)
+comma := ,
 BENCHES := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench/bench_*.c))
 EXPERIMENTS := $(patsubst experiments/%.yaml,%,$(wildcard experiments/*.yaml))
 C_FILES := $(wildcard src/*/*.c tests/*/*.c)
@@ -41,7 +42,7 @@ SELECTED = $(if $(TESTS),$(sort $(foreach word,$(TESTS),$(foreach test,$1,$(if $
 
 .DEFAULT_GOAL := all
 .PHONY: all lib programs deps quickstart check test asan ubsan valgrind coverage clang tidy format \
-	format-check symbols bench soak tables install clean distclean help $(EXPERIMENTS)
+	format-check symbols bench soak faults-long fuzz tables install clean distclean help $(EXPERIMENTS)
 .SECONDARY:
 .DELETE_ON_ERROR:
 
@@ -208,12 +209,31 @@ bench:
 	$(Q)mkdir -p $(BUILD)/bench && cd $(BUILD)/bench && \
 		for bench in $(abspath $(BENCHES)); do TALUS_ROOT=$(CURDIR) PATH=$(abspath $(BIN)):$$PATH $$bench || exit; done
 
-## soak: 100 kills over a campaign, and the same bits at its end (SOAK=count)
-SOAK ?= 100
+## soak: 1,000 kills over a campaign, and the same bits at its end (SOAK=count); then crowds of commands
+SOAK ?= 1000
 soak:
 	@scripts/deps build check
 	$(Q)$(MAKE) $(SUB) all
-	$(Q)TALUS_ROOT=$(CURDIR) PATH=$(abspath $(BIN)):$$PATH tests/soak/soak.sh $(SOAK)
+	$(Q)export TALUS_ROOT=$(CURDIR) PATH=$(abspath $(BIN)):$$PATH; tests/soak/soak.sh $(SOAK) && \
+		tests/soak/crowd.sh 2 $$(($(SOAK) / 20)) && tests/soak/crowd.sh 8 $$(($(SOAK) / 20))
+
+## faults-long: every allocation of every command fails once (hours; `make check` tries some of each)
+faults-long:
+	@scripts/deps build check
+	$(Q)TALUS_EVERY_ALLOCATION=1 TEST_TIMEOUT=86400 $(MAKE) $(SUB) test TESTS=test_allocations
+
+FUZZ_SECONDS ?= 60
+FUZZ_TARGETS := config experiment run_file
+fuzzed = $(call variant,$1,lib,$3) CC=$2 OPT='-O1 -ffp-contract=off' WERROR= && for name in $(FUZZ_TARGETS); do \
+	$2 $(CFLAGS_ALL) $3 $4 -DTARGET=fuzz_$$name -o $(BUILD)/$1/fuzz_$$name tests/fuzz/fuzz.c \
+		$(BUILD)/$1/libtalus.a $(PKG_LIBS) || exit; done
+
+## fuzz: libFuzzer and AFL++ on configs, experiments and run files (FUZZ_SECONDS=60 for each)
+fuzz:
+	@scripts/deps build fuzz
+	+$(Q)$(call fuzzed,libfuzzer,clang,-fsanitize=fuzzer-no-link$(comma)address$(comma)undefined,-fsanitize=fuzzer)
+	+$(Q)$(call fuzzed,afl,afl-clang-fast,,-fsanitize=fuzzer)
+	$(Q)tests/fuzz/fuzz.sh $(BUILD) $(FUZZ_SECONDS) $(FUZZ_TARGETS)
 
 ## install: programs, library and headers below PREFIX (/usr/local)
 install: all

@@ -153,12 +153,15 @@ static int print_one(const struct tables_options *options, const struct experime
 	const struct experiment_table *wanted, bool first)
 {
 	struct text command = {0}, out = {0};
-	struct table table;
+	struct table table = {0};
 	struct error err = {0};
 	int code;
 
 	write_command(options, wanted->name.text, &command);
-	if (table_build(&table, experiment, wanted, text_string(&command), &err)) {
+	if (command.failed)
+		(void)error_memory(&err, command.length);
+	if (command.failed ||
+		table_build(&table, experiment, wanted, text_string(&command), &err)) {
 		code = command_fail(&err);
 	} else {
 		text_add(&out, first ? "" : "\n");

@@ -74,10 +74,11 @@ static void read_run_file(const char *folder, struct run_report *report)
 		RUN_STATE_INTERRUPTED, RUN_STATE_COMPLETE, RUN_STATE_FAILED};
 	struct error newest = {0}, previous = {0};
 	struct run_summary summary;
+	bool found = summarise(folder, RUN_FILE_NEWEST, &summary, &newest) == 0 ||
+				 summarise(folder, RUN_FILE_PREVIOUS, &summary, &previous) == 0;
 
-	if (summarise(folder, RUN_FILE_NEWEST, &summary, &newest) != 0 &&
-		summarise(folder, RUN_FILE_PREVIOUS, &summary, &previous) != 0) {
-		report->unknown |= newest.code == EX_SOFTWARE || previous.code == EX_SOFTWARE;
+	report->unknown |= newest.code == EX_SOFTWARE || previous.code == EX_SOFTWARE;
+	if (!found) {
 		if (newest.code == EX_NOINPUT && previous.code == EX_NOINPUT)
 			return;
 		report->state = RUN_STATE_DAMAGED;
