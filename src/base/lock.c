@@ -55,8 +55,8 @@ bool lock_is_named(const struct lock *lock, const char *path)
 {
 	struct stat held, named;
 
-	return fstat(lock->fd, &held) == 0 && lstat(path, &named) == 0 &&
-		   held.st_dev == named.st_dev && held.st_ino == named.st_ino;
+	return fstat(lock->fd, &held) == 0 && lstat(path, &named) == 0 && held.st_dev == named.st_dev &&
+		   held.st_ino == named.st_ino;
 }
 
 bool lock_is_held(const char *path)

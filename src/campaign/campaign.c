@@ -54,8 +54,7 @@ size_t campaign_count(const struct campaign *campaign, enum task_state state)
 /* Of a run that failed: what is wrong with its files has a code of its own. */
 static int task_code(const struct task *task)
 {
-	bool files =
-		task->code == EX_IOERR || task->code == EX_CANTCREAT || task->code == EX_DATAERR;
+	bool files = task->code == EX_IOERR || task->code == EX_CANTCREAT || task->code == EX_DATAERR;
 
 	return files ? task->code : EX_FAILED;
 }

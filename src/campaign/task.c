@@ -119,8 +119,8 @@ int task_start(const struct campaign *campaign, struct task *task, const sigset_
 		goto done;
 	log = file_open_log(text_string(&path));
 	if (log < 0) {
-		error_at(err, EX_CANTCREAT, text_string(&path), 0, 0, "cannot be opened: %s",
-			strerror(errno));
+		error_at(
+			err, EX_CANTCREAT, text_string(&path), 0, 0, "cannot be opened: %s", strerror(errno));
 		goto done;
 	}
 	/* what the program has buffered would be written twice */

@@ -182,8 +182,7 @@ static int print_plan(const struct campaign *campaign)
 		if (task->state == TASK_COMPLETE)
 			text_add(&out, "complete, nothing to do\n");
 		else if (task->state == TASK_FAILED)
-			text_addf(
-				&out, "%s, left as it is without --retry\n", run_state_name(report->state));
+			text_addf(&out, "%s, left as it is without --retry\n", run_state_name(report->state));
 		else if (task->state == TASK_ELSEWHERE)
 			text_add(&out, "another process works on it\n");
 		else if (report->state == RUN_STATE_FAILED || report->state == RUN_STATE_DAMAGED)

@@ -35,8 +35,7 @@ static int run_command(int argc, char **argv)
 		return command_print(&out);
 	}
 	if (!strcmp(argv[1], "--version")) {
-		text_addf(
-			&out, "talus %s (%s, %s)\n", TALUS_VERSION, build_revision(), build_compiler());
+		text_addf(&out, "talus %s (%s, %s)\n", TALUS_VERSION, build_revision(), build_compiler());
 		return command_print(&out);
 	}
 	for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)

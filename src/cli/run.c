@@ -95,8 +95,8 @@ static int execute(struct run_command *command)
 	text_add(&folder, command->folder ? command->folder : "results/");
 	if (!command->folder && !file_stem(command->file, &folder)) {
 		text_clean(&folder);
-		return command_usage(
-			"run", "the name of %s is none for a folder of results; name one with -o", command->file);
+		return command_usage("run",
+			"the name of %s is none for a folder of results; name one with -o", command->file);
 	}
 	command->run.say = say;
 	stop_install();

@@ -160,8 +160,7 @@ static int print_one(const struct tables_options *options, const struct experime
 	write_command(options, wanted->name.text, &command);
 	if (command.failed)
 		(void)error_memory(&err, command.length);
-	if (command.failed ||
-		table_build(&table, experiment, wanted, text_string(&command), &err)) {
+	if (command.failed || table_build(&table, experiment, wanted, text_string(&command), &err)) {
 		code = command_fail(&err);
 	} else {
 		text_add(&out, first ? "" : "\n");

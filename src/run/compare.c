@@ -140,8 +140,7 @@ int compare_run_files(struct run_file *a, struct run_file *b, struct text *out, 
 	if (compare_attributes(a, b, out, err) != 0 || run_file_names(a, &first, err) != 0 ||
 		run_file_names(b, &second, err) != 0)
 		goto done;
-	for (char *path = strtok_r(first.data, "\n", &rest); path;
-		 path = strtok_r(NULL, "\n", &rest)) {
+	for (char *path = strtok_r(first.data, "\n", &rest); path; path = strtok_r(NULL, "\n", &rest)) {
 		if (is_exempt(path))
 			continue;
 		if (run_file_has(b, path, &has, err) != 0)

@@ -311,7 +311,8 @@ int image_finish(
 		goto done;
 	}
 	if (H5Fget_file_image(image->file, *bytes, *size) != length) {
-		error_set(err, EX_SOFTWARE, "HDF5 cannot hand out the image of a run file (out of memory?)");
+		error_set(
+			err, EX_SOFTWARE, "HDF5 cannot hand out the image of a run file (out of memory?)");
 		goto done;
 	}
 	result = 0;

@@ -96,8 +96,8 @@ static int failed_before(const struct attempt *attempt, struct run_file *file, s
 /* No generation is good. Only --retry starts anew, and what is damaged is kept under other names. */
 static int leave_damaged(struct attempt *attempt, enum course *course, struct error *err)
 {
-	static const char *const names[][2] = {{RUN_FILE_NEWEST, "run.damaged.h5"},
-		{RUN_FILE_PREVIOUS, "run.previous.damaged.h5"}};
+	static const char *const names[][2] = {
+		{RUN_FILE_NEWEST, "run.damaged.h5"}, {RUN_FILE_PREVIOUS, "run.previous.damaged.h5"}};
 	size_t used = strlen(err->text);
 
 	if (!attempt->options->retry) {

@@ -174,8 +174,7 @@ unsigned char *run_file_image(const struct run_file *file, size_t *size)
 static int unreadable(struct run_file *file, const char *what, const char *name, struct error *err)
 {
 	if (file->verified)
-		return error_set(
-			err, EX_SOFTWARE, "HDF5 cannot read %s '%s' (out of memory?)", what, name);
+		return error_set(err, EX_SOFTWARE, "HDF5 cannot read %s '%s' (out of memory?)", what, name);
 	return error_at(err, EX_DATAERR, file->path, 0, 0, "%s '%s' cannot be read", what, name);
 }
 

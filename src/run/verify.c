@@ -86,6 +86,52 @@ done:
 	return result;
 }
 
+static void check_number(const char *name, double inside, double told, struct text *out)
+{
+	if (inside != told)
+		text_addf(out, "%s: is %.17g and the trailer says %.17g\n", name, inside, told);
+}
+
+static void check_text(const char *name, const char *inside, const char *told, struct text *out)
+{
+	if (strcmp(inside, told) != 0)
+		text_addf(out, "%s: is '%s' and the trailer says '%s'\n", name, inside, told);
+}
+
+/* The trailer, by which `status` and campaigns go, says what the file says. */
+static int check_summary(struct run_file *file, struct text *out, struct error *err)
+{
+	const struct run_summary *summary = run_file_summary(file);
+	struct text status = {0}, hash = {0};
+	double step, time;
+	int result = -1;
+
+	if (run_file_text(file, "status", &status, err) != 0 ||
+		run_file_text(file, "config_hash", &hash, err) != 0 ||
+		run_file_fill(file, "/checkpoint/step", &step, 1, err) != 0 ||
+		run_file_fill(file, "/checkpoint/time", &time, 1, err) != 0)
+		goto done;
+	check_text("status", text_string(&status), run_status_name(summary->status), out);
+	check_text("config_hash", text_string(&hash), summary->config_hash, out);
+	check_number("/checkpoint/step", step, (double)summary->step, out);
+	check_number("/checkpoint/time", time, summary->time, out);
+	result = 0;
+done:
+	text_clean(&status);
+	text_clean(&hash);
+	return result;
+}
+
+/* The series end where the run stands: at the checkpoint, or, of a run that goes on, before it. */
+static void check_end(const struct run_file *file, const struct dataset *times, struct text *out)
+{
+	const struct run_summary *summary = run_file_summary(file);
+	double last = times->rank == 1 && times->extent[0] ? times->values[times->extent[0] - 1] : 0;
+
+	if (last > summary->time || (summary->status == RUN_COMPLETE && last != summary->time))
+		text_addf(out, "/time: ends at %.17g and the run stands at %.17g\n", last, summary->time);
+}
+
 int verify_run_file(struct run_file *file, struct text *out, struct error *err)
 {
 	struct dataset times = {0}, profile_times = {0};
@@ -96,12 +142,14 @@ int verify_run_file(struct run_file *file, struct text *out, struct error *err)
 		run_file_has(file, "/profile_time", &profiles, err) != 0)
 		goto done;
 	check_growth("/time", &times, out);
+	check_end(file, &times, out);
 	if (profiles) {
 		if (run_file_dataset(file, "/profile_time", &profile_times, err) != 0)
 			goto done;
 		check_growth("/profile_time", &profile_times, out);
 	}
-	if (check_lengths(file, out, err) != 0 || check_mass(file, out, err) != 0)
+	if (check_summary(file, out, err) != 0 || check_lengths(file, out, err) != 0 ||
+		check_mass(file, out, err) != 0)
 		goto done;
 	result = out->failed ? error_memory(err, out->capacity) : 0;
 done:

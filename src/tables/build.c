@@ -69,8 +69,7 @@ static int open_partner(
 		run_file_close(builder->partner);
 		builder->partner = NULL;
 		builder->partner_index = index;
-		TRY(open_run(
-			builder, &builder->experiment->runs[index], false, &builder->partner, fatal));
+		TRY(open_run(builder, &builder->experiment->runs[index], false, &builder->partner, fatal));
 	}
 	*out = builder->partner;
 	return 0;
@@ -132,8 +131,8 @@ static int measure_runs(struct builder *builder, struct error *err)
 		if (!file)
 			continue;
 		for (size_t m = 0; m < measures && !err->code; m++)
-			(void)measure(builder, i, file, &layout->measures[m],
-				&builder->values[i * measures + m], err);
+			(void)measure(
+				builder, i, file, &layout->measures[m], &builder->values[i * measures + m], err);
 		provenance_add(&builder->provenance, file);
 		run_file_close(file);
 		if (err->code)

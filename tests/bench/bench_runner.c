@@ -32,7 +32,8 @@ static int prepare(int tens, struct error *err)
 	struct config config;
 	int result;
 
-	text_add(&study, "base: base.yaml\nruns:\n- layers: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]\n  slope: [");
+	text_add(
+		&study, "base: base.yaml\nruns:\n- layers: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]\n  slope: [");
 	for (int i = 0; i < tens; i++)
 		text_addf(&study, "%s%d.%03d deg", i ? ", " : "", 10 + i / 1000, i % 1000);
 	text_add(&study, "]\n");
@@ -95,7 +96,8 @@ static int measure(int tens, bool execute, struct error *err)
 			1e3 * (after.all - before.all) / count);
 	}
 	(void)getrusage(RUSAGE_SELF, &usage);
-	(void)printf("runner with %d runs: peak of %.1f MB\n", 10 * tens, 1.024e-3 * (double)usage.ru_maxrss);
+	(void)printf(
+		"runner with %d runs: peak of %.1f MB\n", 10 * tens, 1.024e-3 * (double)usage.ru_maxrss);
 	campaign_clean(&campaign);
 	experiment_clean(&experiment);
 	return result;

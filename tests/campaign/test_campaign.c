@@ -101,8 +101,7 @@ static void a_run_that_cannot_use_its_files_has_their_code_and_the_others_go_on(
 	static const struct {
 		const char *script;
 		int code;
-	} ends[] = {{"#!/bin/sh\nexit 65\n", EX_DATAERR},
-		{"#!/bin/sh\nexit 73\n", EX_CANTCREAT},
+	} ends[] = {{"#!/bin/sh\nexit 65\n", EX_DATAERR}, {"#!/bin/sh\nexit 73\n", EX_CANTCREAT},
 		{"#!/bin/sh\ncase $2 in *layers-4*) exit 74 ;; esac\nexit 1\n", EX_IOERR}};
 
 	(void)state;

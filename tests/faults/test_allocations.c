@@ -89,7 +89,8 @@ static int attempt(const struct command *c, const char *n)
 	(void)snprintf(line, sizeof line,
 		"{ %s; } >/dev/null 2>&1; set -o pipefail; "
 		"talus() { LD_PRELOAD=%s COUNT_ALLOC=$PWD/count FAIL_ALLOC=%s command talus \"$@\"; }; "
-		"talus-tables() { LD_PRELOAD=%s COUNT_ALLOC=$PWD/count FAIL_ALLOC=%s command talus-tables \"$@\"; }; "
+		"talus-tables() { LD_PRELOAD=%s COUNT_ALLOC=$PWD/count FAIL_ALLOC=%s command talus-tables "
+		"\"$@\"; }; "
 		"{ %s; } >stdout 2>stderr",
 		c->prepare, preload, n, preload, n, c->command);
 	assert_int_equal(setenv("LINE", line, 1), 0);
@@ -106,8 +107,10 @@ static void judge(const struct command *c, const char *n, int code, const char *
 	if (code == EX_SOFTWARE && !strstr(err, "memory"))
 		fail_msg("%s, allocation %s: no word of memory: %s", c->name, n, err);
 	if (code == 0 && strcmp(out, reference) != 0)
-		fail_msg("%s, allocation %s: exit code 0 and\n%s instead of\n%s", c->name, n, out, reference);
-	if (setenv("LINE", c->after, 1) != 0 || run("exec bash -c \"{ $LINE; } >stdout 2>stderr\"") != 0)
+		fail_msg(
+			"%s, allocation %s: exit code 0 and\n%s instead of\n%s", c->name, n, out, reference);
+	if (setenv("LINE", c->after, 1) != 0 ||
+		run("exec bash -c \"{ $LINE; } >stdout 2>stderr\"") != 0)
 		fail_msg("%s, allocation %s: afterwards: %s", c->name, n, contents("stderr"));
 	free(out);
 	free(err);

@@ -68,11 +68,12 @@ static long peak_kilobytes(void)
 /* A mebibyte of one thing after another, which is as much as is read. */
 static void text_that_is_made_to_take_long_does_not(void **state)
 {
-	static const char *const parts[] = {"[", "{", "- ", "? ", ": ", "a: ", "a: {", "[a, ", "a: [b, ",
-		"&a ", "*a ", "&a [*a, ", "!a ", "!<a> ", "'", "\"", "\"\\", "'a' ", "|\n", ">\n ", "a\n", "a ",
-		"#\n", "%a\n", "---\n", "...\n", "a: &a\n", "<<: *a\n", "\n", " ", "\t", "- - - - a\n", "? - a\n",
-		"{a, ", "{a: b, ", "a: 'b\n", "\xEF\xBB\xBF", "\xF4\x8F\xBF\xBF", "- a\n", "a: b\nc: d\n",
-		"layers: [1, 2, 3, 4]\n", "runs: [{layers: [2]}]\n"};
+	static const char *const parts[] = {"[", "{", "- ", "? ", ": ", "a: ", "a: {", "[a, ",
+		"a: [b, ", "&a ", "*a ", "&a [*a, ", "!a ", "!<a> ", "'", "\"", "\"\\", "'a' ", "|\n",
+		">\n ", "a\n", "a ", "#\n", "%a\n", "---\n", "...\n", "a: &a\n", "<<: *a\n", "\n", " ",
+		"\t", "- - - - a\n", "? - a\n", "{a, ", "{a: b, ", "a: 'b\n", "\xEF\xBB\xBF",
+		"\xF4\x8F\xBF\xBF", "- a\n", "a: b\nc: d\n", "layers: [1, 2, 3, 4]\n",
+		"runs: [{layers: [2]}]\n"};
 	static const char *const before[] = {"", "a: ", "runs:\n"};
 	enum { SIZE = 1 << 20 };
 	char *text = malloc(SIZE + 64);
