@@ -151,6 +151,8 @@ static int is_wanted(
 		mine.length = other.length = 0;
 		result = config_value(&run->config, setting->key, &mine, err) ||
 				 config_value(&config, setting->key, &other, err);
+		if (!result && (mine.failed || other.failed))
+			result = error_memory(err, mine.length + other.length);
 		*wanted = !result && !strcmp(text_string(&mine), text_string(&other));
 	}
 	text_clean(&mine);

@@ -1,17 +1,21 @@
 /* To be preloaded: the n-th allocation of the process fails, wherever it is asked for, in libc, HDF5 and
  * libyaml too. $FAIL_ALLOC is n, with a '+' behind it for all from the n-th on. $COUNT_ALLOC names a file
- * that gets the number of allocations at the end. Children are left in peace. */
+ * that gets the number of allocations at the end. With $FAIL_OURS only those count that the program itself
+ * asks for, and no library. Children are left in peace. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <link.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 static long count, fail_at;
-static bool armed, stays;
+static bool armed, stays, ours;
+static uintptr_t program_begin, program_end;
 static const char *count_file;
 
 /* dlsym may allocate before it has told where to. */
@@ -31,9 +35,11 @@ static bool is_early(const void *block)
 	return (const char *)block >= early && (const char *)block < early + sizeof early;
 }
 
-static bool fails(void)
+static bool fails(const void *caller)
 {
-	if (!armed)
+	uintptr_t place = (uintptr_t)caller;
+
+	if (!armed || (ours && (place < program_begin || place >= program_end)))
 		return false;
 	count++;
 	if (!fail_at || (stays ? count < fail_at : count != fail_at))
@@ -53,7 +59,7 @@ void *malloc(size_t size)
 		asking = true;
 		*(void **)&next = dlsym(RTLD_NEXT, "malloc");
 	}
-	return fails() ? NULL : next(size);
+	return fails(__builtin_return_address(0)) ? NULL : next(size);
 }
 
 void *calloc(size_t number, size_t size)
@@ -67,7 +73,7 @@ void *calloc(size_t number, size_t size)
 		asking = true;
 		*(void **)&next = dlsym(RTLD_NEXT, "calloc");
 	}
-	return fails() ? NULL : next(number, size);
+	return fails(__builtin_return_address(0)) ? NULL : next(number, size);
 }
 
 void *realloc(void *block, size_t size)
@@ -76,7 +82,7 @@ void *realloc(void *block, size_t size)
 
 	if (!next)
 		*(void **)&next = dlsym(RTLD_NEXT, "realloc");
-	return fails() ? NULL : next(block, size);
+	return fails(__builtin_return_address(0)) ? NULL : next(block, size);
 }
 
 void free(void *block)
@@ -89,6 +95,22 @@ void free(void *block)
 		next(block);
 }
 
+/* The first object that is told is the program. */
+static int find_program(struct dl_phdr_info *info, size_t size, void *unused)
+{
+	(void)size;
+	(void)unused;
+	for (int i = 0; i < info->dlpi_phnum; i++) {
+		const ElfW(Phdr) *part = &info->dlpi_phdr[i];
+
+		if (part->p_type == PT_LOAD && (part->p_flags & PF_X)) {
+			program_begin = info->dlpi_addr + part->p_vaddr;
+			program_end = program_begin + part->p_memsz;
+		}
+	}
+	return 1;
+}
+
 __attribute__((constructor)) static void arm(void)
 {
 	const char *wanted = getenv("FAIL_ALLOC");
@@ -96,6 +118,8 @@ __attribute__((constructor)) static void arm(void)
 	count_file = getenv("COUNT_ALLOC");
 	fail_at = wanted ? strtol(wanted, NULL, 10) : 0;
 	stays = wanted && strchr(wanted, '+');
+	ours = getenv("FAIL_OURS") != NULL;
+	(void)dl_iterate_phdr(find_program, NULL);
 	(void)unsetenv("LD_PRELOAD");
 	armed = true;
 }

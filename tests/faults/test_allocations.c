@@ -1,7 +1,8 @@
 /* Whichever allocation of a command fails, in our code, HDF5, libyaml or libc: an error that says so, or
  * the right result; nothing crashes, leaks (in the build for that) or is lost on disk. Each trial is a
  * process with fail_alloc.so preloaded. Some n of each command are tried; all of them with
- * $TALUS_EVERY_ALLOCATION (`make faults-long`). */
+ * $TALUS_EVERY_ALLOCATION (`make faults-long`). In the build that sees leaks only our own allocations fail:
+ * HDF5 leaks its own when they do. */
 #include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +18,8 @@
 
 #include "base/file.h"
 
-enum { TRIALS = 25 };
+/* Trials of a command: of our own allocations, and of those of the libraries as well. */
+enum { OURS = 12, ALL = 12 };
 
 static char preload[1024]; /* path of fail_alloc.so */
 
@@ -31,7 +33,7 @@ static const struct command {
 		"talus run -q small.yaml -o run && talus diff run straight && talus verify run"},
 	{"resume", "rm -rf run; cp -r stopped run", "talus run small.yaml -o run",
 		"talus run -q small.yaml -o run && talus diff run straight && "
-		"grep -q 'resumed at step [1-9]' run/run.log"},
+		"! grep -q started run/run.log"},
 	{"info", "true", "talus info straight", "true"},
 	{"verify", "true", "talus verify straight", "true"},
 	{"diff", "true", "talus diff straight stopped", "true"},
@@ -116,17 +118,17 @@ static void judge(const struct command *c, const char *n, int code, const char *
 	free(err);
 }
 
-static void try_command(const struct command *c)
+static void try_command(const struct command *c, long trials)
 {
 	bool every = getenv("TALUS_EVERY_ALLOCATION") != NULL;
 	int expected = attempt(c, "");
 	char *reference = contents("stdout"), n[32];
 	long count = strtol(contents("count"), NULL, 10), told = 0;
-	long stride = every ? 1 : 1 + count / TRIALS;
+	long stride = every ? 1 : 1 + count / trials;
 
 	/* two runs that differ are 1, for which no trial can stand */
 	assert_in_range(expected, 0, 1);
-	assert_in_range(count, 10, 1000000);
+	assert_in_range(count, OURS, 1000000);
 	for (long i = 1 + stride / 2; i <= count; i += stride) {
 		(void)snprintf(n, sizeof n, "%ld%s", i, i / stride % 4 == 3 ? "+" : "");
 		int code = attempt(c, n);
@@ -135,9 +137,17 @@ static void try_command(const struct command *c)
 			judge(c, n, code, reference);
 		told += code == EX_SOFTWARE;
 	}
-	print_message("# %s: %ld allocations, %ld errors told\n", c->name, count, told);
+	print_message("# %s: %ld allocations%s, %ld errors told\n", c->name, count,
+		getenv("FAIL_OURS") ? " of ours" : "", told);
 	assert_true(told > 0);
 	free(reference);
+}
+
+static bool sees_leaks(void)
+{
+	const char *sanitizer = getenv("SANITIZER");
+
+	return sanitizer && !strcmp(sanitizer, "asan");
 }
 
 static void any_allocation_may_fail(void **state)
@@ -146,8 +156,13 @@ static void any_allocation_may_fail(void **state)
 	for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
 		const char *only = getenv("TALUS_ONLY");
 
-		if (!only || !strcmp(only, commands[i].name))
-			try_command(&commands[i]);
+		if (only && strcmp(only, commands[i].name) != 0)
+			continue;
+		assert_int_equal(setenv("FAIL_OURS", "1", 1), 0);
+		try_command(&commands[i], OURS);
+		assert_int_equal(unsetenv("FAIL_OURS"), 0);
+		if (!sees_leaks())
+			try_command(&commands[i], ALL);
 	}
 }
 
