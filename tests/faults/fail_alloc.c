@@ -18,7 +18,14 @@ static bool armed, stays, ours;
 static uintptr_t program_begin, program_end;
 static const char *count_file;
 
-/* dlsym may allocate before it has told where to. */
+/* What we stand before. */
+static void *(*next_malloc)(size_t);
+static void *(*next_calloc)(size_t, size_t);
+static void *(*next_realloc)(void *, size_t);
+static void (*next_free)(void *);
+
+/* While dlsym finds them it allocates and frees itself: from here, and never. */
+static bool finding;
 static char early[8192];
 static size_t early_used;
 
@@ -33,6 +40,20 @@ static void *early_alloc(size_t size)
 static bool is_early(const void *block)
 {
 	return (const char *)block >= early && (const char *)block < early + sizeof early;
+}
+
+/* False while it is being done. */
+static bool found(void)
+{
+	if (next_free || finding)
+		return !finding;
+	finding = true;
+	*(void **)&next_malloc = dlsym(RTLD_NEXT, "malloc");
+	*(void **)&next_calloc = dlsym(RTLD_NEXT, "calloc");
+	*(void **)&next_realloc = dlsym(RTLD_NEXT, "realloc");
+	*(void **)&next_free = dlsym(RTLD_NEXT, "free");
+	finding = false;
+	return true;
 }
 
 static bool fails(const void *caller)
@@ -50,49 +71,29 @@ static bool fails(const void *caller)
 
 void *malloc(size_t size)
 {
-	static void *(*next)(size_t);
-	static bool asking;
-
-	if (!next) {
-		if (asking)
-			return early_alloc(size);
-		asking = true;
-		*(void **)&next = dlsym(RTLD_NEXT, "malloc");
-	}
-	return fails(__builtin_return_address(0)) ? NULL : next(size);
+	if (!found())
+		return early_alloc(size);
+	return fails(__builtin_return_address(0)) ? NULL : next_malloc(size);
 }
 
 void *calloc(size_t number, size_t size)
 {
-	static void *(*next)(size_t, size_t);
-	static bool asking;
-
-	if (!next) {
-		if (asking)
-			return early_alloc(number * size);
-		asking = true;
-		*(void **)&next = dlsym(RTLD_NEXT, "calloc");
-	}
-	return fails(__builtin_return_address(0)) ? NULL : next(number, size);
+	if (!found())
+		return early_alloc(number * size);
+	return fails(__builtin_return_address(0)) ? NULL : next_calloc(number, size);
 }
 
 void *realloc(void *block, size_t size)
 {
-	static void *(*next)(void *, size_t);
-
-	if (!next)
-		*(void **)&next = dlsym(RTLD_NEXT, "realloc");
-	return fails(__builtin_return_address(0)) ? NULL : next(block, size);
+	if (!found())
+		return NULL;
+	return fails(__builtin_return_address(0)) ? NULL : next_realloc(block, size);
 }
 
 void free(void *block)
 {
-	static void (*next)(void *);
-
-	if (!next)
-		*(void **)&next = dlsym(RTLD_NEXT, "free");
-	if (!is_early(block))
-		next(block);
+	if (found() && !is_early(block))
+		next_free(block);
 }
 
 /* The first object that is told is the program. */

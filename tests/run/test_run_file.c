@@ -267,6 +267,32 @@ static void time_that_does_not_grow_is_found(void **state)
 	assert_breach("/time: does not grow at [3]: 0");
 }
 
+static void a_trailer_that_tells_otherwise_is_found(void **state)
+{
+	const struct file_place place = {.folder = in_folder("a"), .name = "run.h5"};
+	struct run_summary summary;
+	struct error err = {0};
+	unsigned char *bytes;
+	size_t size;
+
+	(void)state;
+	(void)make_run();
+	assert_int_equal(run_file_peek(in_folder("a/run.h5"), &summary, &err), 0);
+	assert_int_equal(file_read(in_folder("a/run.h5"), &bytes, &size, &err), 0);
+	summary.step++;
+	summary.time = 0.05;
+	summary.status = RUN_FAILED;
+	size -= TRAILER_SIZE;
+	trailer_write(&summary, bytes, size, bytes + size);
+	assert_int_equal(
+		file_replace(&place, &(struct file_part){bytes, size + TRAILER_SIZE}, 1, &err), 0);
+	free(bytes);
+	assert_breach("status: is 'complete' and the trailer says 'failed'");
+	assert_breach("/checkpoint/step: is ");
+	assert_breach("/checkpoint/time: is 0.1");
+	assert_breach("/time: ends at 0.1");
+}
+
 static void mass_that_is_lost_is_found(void **state)
 {
 	(void)state;
@@ -340,6 +366,7 @@ int main(void)
 		TEST(what_is_absent_is_an_error_with_its_name),
 		TEST(the_content_of_a_run_makes_sense),
 		TEST(time_that_does_not_grow_is_found),
+		TEST(a_trailer_that_tells_otherwise_is_found),
 		TEST(mass_that_is_lost_is_found),
 		TEST(mass_that_is_no_number_is_found),
 		TEST(a_different_bit_is_told_with_its_place),
