@@ -139,7 +139,8 @@ static void add_option(struct text *command, const char *option, const char *val
 static void write_command(
 	const struct tables_options *options, const char *table, struct text *command)
 {
-	text_addf(command, "talus-tables %s", options->experiment[0] == '-' ? "./" : "");
+	text_addf(
+		command, "talus-tables %s", options->experiment && *options->experiment == '-' ? "./" : "");
 	text_add_word(command, options->experiment);
 	if (options->folder)
 		add_option(command, "-o", options->folder);

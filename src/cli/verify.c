@@ -75,7 +75,7 @@ static int add_folder(
 	static const char *const names[] = {RUN_FILE_NEWEST, RUN_FILE_PREVIOUS};
 	const char *newest = NULL;
 	struct text path = {0};
-	bool good;
+	bool good = false;
 
 	for (size_t i = 0; i < 2; i++) {
 		if (file_path(&path, folder, names[i], err) != 0 ||

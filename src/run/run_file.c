@@ -229,17 +229,16 @@ int run_file_real(struct run_file *file, const char *name, double *out, struct e
 	hid_t id = open_attribute(file, name, err), space = id < 0 ? -1 : H5Aget_space(id),
 		  type = space < 0 ? -1 : H5Aget_type(id);
 	H5T_class_t kind = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
+	bool number = type >= 0 && (kind == H5T_FLOAT || kind == H5T_INTEGER) &&
+				  H5Sget_simple_extent_npoints(space) == 1;
 	int result = -1;
 
-	if (id >= 0 && type < 0)
-		unreadable(file, "attribute", name, err);
-	else if (id >= 0 && ((kind != H5T_FLOAT && kind != H5T_INTEGER) ||
-							H5Sget_simple_extent_npoints(space) != 1))
+	if (type >= 0 && !number)
 		attribute_error(file, name, err);
-	else if (id >= 0 && H5Aread(id, H5T_NATIVE_DOUBLE, out) < 0)
+	else if (number && H5Aread(id, H5T_NATIVE_DOUBLE, out) >= 0)
+		result = 0;
+	else if (id >= 0)
 		unreadable(file, "attribute", name, err);
-	else
-		result = id < 0 ? -1 : 0;
 	if (type >= 0)
 		(void)H5Tclose(type);
 	if (space >= 0)
@@ -256,20 +255,22 @@ static hid_t open_dataset(
 	hsize_t extent[3] = {0};
 	hid_t id, space;
 	bool has = false;
+	int rank;
 
 	shape->rank = -1;
 	if (run_file_has(file, path, &has, err) != 0)
 		return -1;
 	id = has ? H5Dopen2(file->id, path, H5P_DEFAULT) : -1;
 	space = id < 0 ? -1 : H5Dget_space(id);
+	rank = space < 0 ? -1 : H5Sget_simple_extent_ndims(space);
 	if (!has)
 		error_at(err, EX_DATAERR, file->path, 0, 0, "holds no dataset '%s'", path);
-	else if (space < 0)
-		unreadable(file, "dataset", path, err);
-	else if (H5Sget_simple_extent_ndims(space) > 3)
+	else if (rank > 3)
 		error_at(err, EX_DATAERR, file->path, 0, 0, "dataset '%s' has too many axes", path);
-	else if ((shape->rank = H5Sget_simple_extent_dims(space, extent, NULL)) < 0)
+	else if (rank < 0 || H5Sget_simple_extent_dims(space, extent, NULL) < 0)
 		unreadable(file, "dataset", path, err);
+	else
+		shape->rank = rank;
 	for (int i = 0; i < 3; i++)
 		shape->extent[i] = extent[i];
 	if (space >= 0)

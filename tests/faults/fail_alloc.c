@@ -76,24 +76,24 @@ void *malloc(size_t size)
 	return fails(__builtin_return_address(0)) ? NULL : next_malloc(size);
 }
 
-void *calloc(size_t number, size_t size)
+void *calloc(size_t nmemb, size_t size)
 {
 	if (!found())
-		return early_alloc(number * size);
-	return fails(__builtin_return_address(0)) ? NULL : next_calloc(number, size);
+		return early_alloc(nmemb * size);
+	return fails(__builtin_return_address(0)) ? NULL : next_calloc(nmemb, size);
 }
 
-void *realloc(void *block, size_t size)
+void *realloc(void *ptr, size_t size)
 {
 	if (!found())
 		return NULL;
-	return fails(__builtin_return_address(0)) ? NULL : next_realloc(block, size);
+	return fails(__builtin_return_address(0)) ? NULL : next_realloc(ptr, size);
 }
 
-void free(void *block)
+void free(void *ptr)
 {
-	if (found() && !is_early(block))
-		next_free(block);
+	if (found() && !is_early(ptr))
+		next_free(ptr);
 }
 
 /* The first object that is told is the program. */

@@ -122,8 +122,8 @@ static void try_command(const struct command *c, long trials)
 {
 	bool every = getenv("TALUS_EVERY_ALLOCATION") != NULL;
 	int expected = attempt(c, "");
-	char *reference = contents("stdout"), n[32];
-	long count = strtol(contents("count"), NULL, 10), told = 0;
+	char *reference = contents("stdout"), *counted = contents("count"), n[32];
+	long count = strtol(counted, NULL, 10), told = 0;
 	long stride = every ? 1 : 1 + count / trials;
 
 	/* two runs that differ are 1, for which no trial can stand */
@@ -140,6 +140,7 @@ static void try_command(const struct command *c, long trials)
 	print_message("# %s: %ld allocations%s, %ld errors told\n", c->name, count,
 		getenv("FAIL_OURS") ? " of ours" : "", told);
 	assert_true(told > 0);
+	free(counted);
 	free(reference);
 }
 

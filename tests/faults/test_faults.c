@@ -95,11 +95,11 @@ int fsync(int fd)
 }
 
 /* Only the creation of files counts: to read fails in other ways. */
-int openat(int folder_fd, const char *path, int flags, ...)
+int openat(int fd, const char *file, int oflag, ...)
 {
-	if ((flags & O_CREAT) && fails())
+	if ((oflag & O_CREAT) && fails())
 		return -1;
-	return (int)syscall(SYS_openat, folder_fd, path, flags, 0666);
+	return (int)syscall(SYS_openat, fd, file, oflag, 0666);
 }
 
 int linkat(int fromfd, const char *from, int tofd, const char *to, int flags)
@@ -122,10 +122,19 @@ static const char settings[] = "checkpoint.every_steps=15;time.end=0.5";
 /* At least one generation is good, and the run goes on from it to the same bits. */
 static void assert_nothing_lost(const struct config *config, const char *name)
 {
+	char path[256];
 	struct run_report report;
+	unsigned char *log = NULL;
+	struct error err = {0};
+	size_t size;
 
 	run_report_read(in_folder(name), &report);
 	assert_int_not_equal(report.state, RUN_STATE_DAMAGED);
+	/* from the first checkpoint on, which is told in the log, there always is one */
+	(void)snprintf(path, sizeof path, "%s/run.log", in_folder(name));
+	if (file_read(path, &log, &size, &err) == 0 && strstr((const char *)log, "started at step"))
+		assert_int_not_equal(report.state, RUN_STATE_PENDING);
+	free(log);
 	assert_int_not_equal(report.state, RUN_STATE_RUNNING);
 	must_execute(config, name);
 	assert_same_bits("straight", name);
@@ -227,23 +236,23 @@ static void a_full_disk_says_how_much_room_is_needed(void **state)
 /* The clock for people, set back by this many seconds. */
 static time_t set_back;
 
-time_t time(time_t *out)
+time_t time(time_t *timer)
 {
 	struct timespec now = {0};
 
 	(void)syscall(SYS_clock_gettime, CLOCK_REALTIME, &now);
 	now.tv_sec -= set_back;
-	if (out)
-		*out = now.tv_sec;
+	if (timer)
+		*timer = now.tv_sec;
 	return now.tv_sec;
 }
 
-int clock_gettime(clockid_t id, struct timespec *now)
+int clock_gettime(clockid_t clock_id, struct timespec *tp)
 {
-	int result = (int)syscall(SYS_clock_gettime, id, now);
+	int result = (int)syscall(SYS_clock_gettime, clock_id, tp);
 
-	if (id == CLOCK_REALTIME)
-		now->tv_sec -= set_back;
+	if (clock_id == CLOCK_REALTIME)
+		tp->tv_sec -= set_back;
 	return result;
 }
 

@@ -1,5 +1,5 @@
 /* The committed corpora once more, and texts that are made to take long. */
-#include "fuzz.c" /* NOLINT(bugprone-suspicious-include): the targets are static functions */
+#include "targets.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -124,7 +124,7 @@ static void a_hundred_megabytes_are_refused_unread(void **state)
 	assert_true(clock_cpu() - start < 5);
 }
 
-/* fuzz.c leaves its folder to us. */
+/* The targets leave their folder to us. */
 static int remove_folder(void **state)
 {
 	char folder[4096];
