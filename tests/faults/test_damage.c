@@ -62,9 +62,8 @@ static uint64_t resumed_at(void)
 
 	assert_int_equal(file_read(in_folder("a/run.log"), &log, &size, &err), 0);
 	told = strstr((const char *)log, words);
-	if (!told)
-		fail_msg("the run did not resume");
-	step = strtoull(told + strlen(words), NULL, 10);
+	assert_non_null(told);
+	step = told ? strtoull(told + strlen(words), NULL, 10) : 0;
 	free(log);
 	assert_int_equal(remove(in_folder("a/run.log")), 0);
 	return step;
