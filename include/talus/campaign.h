@@ -67,6 +67,7 @@ struct campaign {
 	double scale;       /* CPU seconds of the runs that are complete, by those that were expected */
 	bool stopping;      /* a signal or `campaign_cancel` asked for it */
 	bool gave_up;       /* max_failures runs have failed */
+	struct error fault; /* of the disk or of memory: nothing more is started; code 0: there was none */
 };
 
 /* How runs are executed; a row of the table in executor.c. */
@@ -94,8 +95,9 @@ int campaign_select_failed(
 int campaign_find_run(
 	const struct experiment *experiment, const char *name, size_t *index, struct error *err);
 
-/* Bring every run to its end. Failed runs do not stop the others, up to max_failures. A run that differs
- * from another only by a later time.end goes on from that one. SIGINT, SIGTERM, SIGHUP and SIGUSR1
+/* Bring every run to its end. Failed runs do not stop the others, up to max_failures; a disk that can
+ * hold no more does, see `fault`. A run that differs from another only by a later time.end goes on from
+ * that one. SIGINT, SIGTERM, SIGHUP and SIGUSR1
  * stop the children, whose checkpoints are waited for; a second SIGINT ends the wait. Returns 0 also
  * when runs failed: see the tasks and campaign_code. EX_CANTCREAT, EX_IOERR, EX_SOFTWARE. */
 int campaign_execute(struct campaign *campaign, const struct executor *executor, struct error *err);
@@ -103,7 +105,9 @@ int campaign_execute(struct campaign *campaign, const struct executor *executor,
 /* Look again at the runs that are not complete, as somebody who works on none of them. */
 void campaign_look(struct campaign *campaign);
 
-/* The exit code of the campaign: EX_INTERRUPTED beats EX_FAILED beats 0; one that gave up has failed. */
+/* The exit code of the campaign: that of the fault beats EX_INTERRUPTED beats EX_IOERR and EX_CANTCREAT
+ * (of one run's folder) beats EX_DATAERR (a run file) beats EX_FAILED beats 0; one that gave up has
+ * failed. */
 int campaign_code(const struct campaign *campaign);
 
 size_t campaign_count(const struct campaign *campaign, enum task_state state);

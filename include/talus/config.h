@@ -29,11 +29,12 @@ enum start_kind { START_ZERO, START_PREVIOUS };
 enum criterion_kind { CRITERION_RESIDUAL, CRITERION_INCREMENT };
 enum norm_kind { NORM_L1, NORM_L2, NORM_LINF };
 
-/* A short list of numbers, kept inside the config so that a config is a plain value. */
+/* A short list of numbers. A config is a plain value: the numbers are never changed and never freed. */
 struct real_list {
 	int count;
-	double values[512];
+	const double *values; /* [count] */
 };
+enum { REAL_LIST_MAX = 512 };
 
 struct config {
 	int model;                     /* enum model_kind */

@@ -31,7 +31,10 @@ int campaign_create(struct campaign *campaign, const struct experiment *experime
 		task->cost = model_cost(&task->run->config);
 		task->before = SIZE_MAX;
 		task_look(campaign, task);
-		task->failed_before = task->report.state == RUN_STATE_FAILED;
+		if (task->report.unknown)
+			return error_memory(err, sizeof *task);
+		task->failed_before =
+			task->report.state == RUN_STATE_FAILED || task->report.state == RUN_STATE_DAMAGED;
 		task->skipped = task->state == TASK_COMPLETE || task->state == TASK_FAILED;
 	}
 	campaign_calibrate(campaign);
@@ -61,17 +64,32 @@ size_t campaign_count(const struct campaign *campaign, enum task_state state)
 	return count;
 }
 
+/* Of a run that failed: what is wrong with its files has a code of its own. */
+static int task_code(const struct task *task)
+{
+	bool files = task->code == EX_IOERR || task->code == EX_CANTCREAT || task->code == EX_DATAERR;
+
+	return files ? task->code : EX_FAILED;
+}
+
 int campaign_code(const struct campaign *campaign)
 {
-	size_t failed = campaign_count(campaign, TASK_FAILED);
-	size_t ended =
-		campaign_count(campaign, TASK_COMPLETE) + failed + campaign_count(campaign, TASK_LEFT);
+	size_t ended = campaign_count(campaign, TASK_COMPLETE) +
+				   campaign_count(campaign, TASK_FAILED) + campaign_count(campaign, TASK_LEFT);
+	int worst = 0;
 
+	if (campaign->fault.code)
+		return campaign->fault.code;
 	if (campaign->gave_up && !campaign->stopping)
 		return EX_FAILED;
 	if (ended < campaign->experiment->run_count)
 		return EX_INTERRUPTED;
-	return failed ? EX_FAILED : 0;
+	for (size_t i = 0; i < campaign->experiment->run_count; i++) {
+		int code = campaign->tasks[i].state == TASK_FAILED ? task_code(&campaign->tasks[i]) : 0;
+
+		worst = code > worst ? code : worst;
+	}
+	return worst;
 }
 
 void campaign_calibrate(struct campaign *campaign)

@@ -1,10 +1,9 @@
 #include "talus/experiment.h"
 
-#include <errno.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "campaign/expand.h"
 #include "campaign/experiment_observations.h"
 #include "campaign/experiment_plots.h"
@@ -263,11 +262,12 @@ static int read_form(const struct reader *reader, struct form *form)
 	return share_published(reader, experiment);
 }
 
-/* The base config; its path is relative to the experiment's. */
+/* The base config; its path is relative to the experiment's. One that cannot be read is told with the place
+ * where the experiment names it. */
 static int load_base(
 	const struct reader *reader, struct experiment *experiment, const struct node *base)
 {
-	FILE *file;
+	struct error why = {0};
 
 	experiment->base = reader_file(reader, base->text);
 	if (!experiment->base)
@@ -275,11 +275,12 @@ static int load_base(
 	experiment->base_root = calloc(1, sizeof *experiment->base_root);
 	if (!experiment->base_root)
 		return error_memory(reader->err, sizeof *experiment->base_root);
-	file = fopen(experiment->base, "re");
-	if (!file) /* told with the place where the experiment names it */
-		return reader_fail(reader, base, "cannot read %s: %s", experiment->base, strerror(errno));
-	(void)fclose(file);
-	return yaml_load(experiment->base_root, experiment->base, reader->err);
+	if (!yaml_load(experiment->base_root, experiment->base, &why))
+		return 0;
+	if (why.code == EX_DATAERR && !why.line)
+		return reader_fail(reader, base, "%s %s", experiment->base, why.text);
+	*reader->err = why;
+	return -1;
 }
 
 static int keep_overrides(
@@ -304,19 +305,25 @@ static int keep_overrides(
 	return 0;
 }
 
-/* results/<stem of the file> unless the caller names a folder. */
+/* results/<stem of the file> unless the caller names a folder. No name begins with '-', which other
+ * programs would take for an option. */
 static int name_folder(struct experiment *experiment, const char *folder, struct error *err)
 {
-	const char *slash = strrchr(experiment->path, '/');
-	const char *name = slash ? slash + 1 : experiment->path;
-	const char *dot = strrchr(name, '.');
-	int stem = dot && dot > name ? (int)(dot - name) : (int)strlen(name);
+	struct text name = {0};
+	bool right = true;
 
 	if (folder)
-		experiment->folder = strdup(folder);
-	else if (asprintf(&experiment->folder, "results/%.*s", stem, name) < 0)
-		experiment->folder = NULL;
-	return experiment->folder ? 0 : error_memory(err, strlen(name));
+		text_addf(&name, "%s%s", *folder == '-' ? "./" : "", folder);
+	else {
+		text_add(&name, "results/");
+		right = file_stem(experiment->path, &name);
+	}
+	experiment->folder = name.data;
+	if (name.failed)
+		return error_memory(err, name.length);
+	return right ? 0
+				 : error_at(err, EX_DATAERR, experiment->path, 0, 0,
+					   "its name is none for a folder of results; name one with -o");
 }
 
 int experiment_read(struct experiment *experiment, const char *path, const char *folder,

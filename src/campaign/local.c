@@ -41,6 +41,33 @@ static bool is_over(const struct task *task)
 		   task->state == TASK_INTERRUPTED;
 }
 
+/* No more runs are to be started. */
+static bool is_stopped(const struct campaign *campaign)
+{
+	return campaign->stopping || campaign->gave_up || campaign->fault.code;
+}
+
+/* A run that could not write: is it the run's own folder, or the disk? On a disk that holds no more
+ * nothing else is started, and the run is not to blame. */
+static void blame_disk(struct pool *pool, struct task *task)
+{
+	enum { LEAST = 1 << 16 };
+	struct campaign *campaign = pool->campaign;
+	struct text path = {0};
+	struct error ignored = {0};
+	size_t room = LEAST, size;
+
+	if ((task->state != TASK_FAILED && task->state != TASK_WAITING) ||
+		(task->code != EX_IOERR && task->code != EX_CANTCREAT))
+		return;
+	if (!file_path(&path, task->run->folder, "run.h5", &ignored) &&
+		file_size(text_string(&path), &size) && size > room)
+		room = size;
+	text_clean(&path);
+	if (!file_has_room(campaign->experiment->folder, room, &campaign->fault))
+		task->state = TASK_INTERRUPTED;
+}
+
 static void reap(struct pool *pool)
 {
 	for (size_t i = 0; i < task_count(pool); i++) {
@@ -48,6 +75,11 @@ static void reap(struct pool *pool)
 
 		if (task->state != TASK_RUNNING || !task_reap(pool->campaign, task))
 			continue;
+		if (task->report.unknown) {
+			error_memory(&pool->campaign->fault, sizeof task->report);
+			task->state = TASK_INTERRUPTED;
+		}
+		blame_disk(pool, task);
 		if (task->state == TASK_COMPLETE)
 			campaign_calibrate(pool->campaign);
 		if (is_over(task) || task->state == TASK_WAITING)
@@ -89,6 +121,7 @@ static void fail_start(struct pool *pool, struct task *task, struct error *err)
 	task->code = err->code;
 	(void)error_format(err, task->report.reason, sizeof task->report.reason);
 	*err = (struct error){0};
+	blame_disk(pool, task);
 	tell_end(pool, task);
 }
 
@@ -135,7 +168,7 @@ static void start(struct pool *pool, struct error *err)
 {
 	const struct campaign *campaign = pool->campaign;
 
-	while (!campaign->stopping && !campaign->gave_up && !err->code &&
+	while (!is_stopped(campaign) && !err->code &&
 		   campaign_count(campaign, TASK_RUNNING) < (size_t)campaign->options.jobs &&
 		   start_next(pool, err))
 		;
@@ -205,7 +238,7 @@ static bool is_work_left(const struct pool *pool, const struct error *err)
 
 	if (campaign_count(campaign, TASK_RUNNING))
 		return true;
-	return !campaign->stopping && !campaign->gave_up && !err->code &&
+	return !is_stopped(campaign) && !err->code &&
 		   (campaign_count(campaign, TASK_WAITING) || campaign_count(campaign, TASK_ELSEWHERE));
 }
 

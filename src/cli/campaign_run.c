@@ -139,7 +139,12 @@ static void tell_failure(const struct task *task)
 	struct text log = {0};
 	char text[ENDED_SIZE];
 
-	(void)fprintf(stderr, "talus: run %s failed", task->run->id);
+	(void)fprintf(stderr, "talus: run %s %s", task->run->id,
+		task->state == TASK_FAILED ? "failed" : "could not write");
+	if (task->report.state == RUN_STATE_DAMAGED && !task->starts && !task->report.blocked) {
+		(void)fprintf(stderr, ": %s; --retry starts it anew\n", task->report.reason);
+		return;
+	}
 	if (task->code)
 		(void)fprintf(stderr, " (%s)", how_ended(task, text));
 	campaign_log_end(task->run, LOG_LINES, &log);
@@ -147,9 +152,16 @@ static void tell_failure(const struct task *task)
 		(void)fprintf(stderr, "; the end of %s/run.log:\n", task->run->folder);
 		print_log(text_string(&log));
 	} else {
-		(void)fprintf(stderr, ": %s\n", task->report.reason);
+		(void)fprintf(stderr, "%s%s\n", *task->report.reason ? ": " : "", task->report.reason);
 	}
 	text_clean(&log);
+}
+
+static bool is_told(const struct task *task)
+{
+	return task->state == TASK_FAILED ||
+		   (task->state == TASK_INTERRUPTED &&
+			   (task->code == EX_IOERR || task->code == EX_CANTCREAT));
 }
 
 static void tell_counts(const struct campaign *campaign, struct text *out)
@@ -170,17 +182,21 @@ static void tell_counts(const struct campaign *campaign, struct text *out)
 static int tell_result(const struct campaign *campaign)
 {
 	struct text out = {0};
+	char message[sizeof campaign->fault.text + sizeof campaign->fault.file];
 	int code = campaign_code(campaign), printed;
 
 	tell_counts(campaign, &out);
 	printed = command_print(&out);
 	for (size_t i = 0; i < campaign->experiment->run_count; i++)
-		if (campaign->tasks[i].state == TASK_FAILED)
+		if (is_told(&campaign->tasks[i]))
 			tell_failure(&campaign->tasks[i]);
 		else if (campaign->tasks[i].timed_out && campaign->tasks[i].state == TASK_INTERRUPTED)
 			(void)fprintf(stderr, "talus: run %s: %s at t = %g s\n", campaign->tasks[i].run->id,
 				campaign->tasks[i].report.reason, campaign->tasks[i].report.time);
-	if (campaign->gave_up)
+	if (campaign->fault.code)
+		(void)fprintf(stderr, "talus: %s; nothing more was started, and the same command goes on\n",
+			error_format(&campaign->fault, message, sizeof message));
+	else if (campaign->gave_up)
 		(void)fprintf(stderr, "talus: --max-failures %d is reached: no more runs were started\n",
 			campaign->options.max_failures);
 	else if (code == EX_INTERRUPTED)
@@ -213,13 +229,13 @@ void campaign_describe_plan(
 	if (task->state == TASK_COMPLETE)
 		text_add(out, "complete, nothing to do");
 	else if (task->state == TASK_FAILED)
-		text_add(out, "failed, left as it is without --retry");
+		text_addf(out, "%s, left as it is without --retry", run_state_name(report->state));
 	else if (task->state == TASK_ELSEWHERE)
 		text_add(out, "another process works on it");
-	else if (report->state == RUN_STATE_FAILED)
-		text_add(out, "failed, start anew");
-	else if (report->state == RUN_STATE_DAMAGED)
+	else if (report->state == RUN_STATE_DAMAGED && report->blocked)
 		text_addf(out, "damaged, refused; move %s away to start anew", task->run->folder);
+	else if (report->state == RUN_STATE_FAILED || report->state == RUN_STATE_DAMAGED)
+		text_addf(out, "%s, start anew", run_state_name(report->state));
 	else if (report->state == RUN_STATE_PENDING && task->before != SIZE_MAX)
 		text_addf(out, "go on to %g s from %s, once that is complete", end,
 			campaign->tasks[task->before].run->id);

@@ -174,13 +174,11 @@ static void print_next(
 		campaign_command(arguments, "run", out);
 		text_add(out, "\n");
 	}
-	if (counts[RUN_STATE_FAILED]) {
-		text_addf(out, "%zu failed; to start them anew: ", counts[RUN_STATE_FAILED]);
-		campaign_command(arguments, "retry", out);
-		text_add(out, "\n");
-	}
 	if (counts[RUN_STATE_DAMAGED] + counts[RUN_STATE_FAILED]) {
-		text_add(out, "why: ");
+		text_addf(out, "%zu failed or damaged; to start them anew: ",
+			counts[RUN_STATE_DAMAGED] + counts[RUN_STATE_FAILED]);
+		campaign_command(arguments, "retry", out);
+		text_add(out, "\nwhy: ");
 		campaign_command(arguments, "why", out);
 		text_add(out, "\n");
 	}
@@ -201,8 +199,14 @@ static int status_main(
 	}
 	campaign_screen(STDOUT_FILENO, &room.columns, &room.rows);
 	room.rows = arguments->all || room.rows < 12 ? 0 : room.rows - 6;
-	for (size_t i = 0; i < experiment->run_count; i++)
+	for (size_t i = 0; i < experiment->run_count; i++) {
 		run_report_read(experiment->runs[i].folder, &reports[i]);
+		if (reports[i].unknown) {
+			(void)error_memory(&err, sizeof *reports);
+			free(reports);
+			return command_fail(&err);
+		}
+	}
 	count_states(experiment, reports, counts);
 	if (arguments->json) {
 		print_json(experiment, reports, counts, &out);

@@ -73,6 +73,10 @@ static int add_config(struct run_file *file, struct text *out, struct error *err
 			text_add(out, "\n");
 		}
 	text_clean(&stored);
+	if (other_version.code == EX_SOFTWARE) {
+		*err = other_version;
+		return -1;
+	}
 	return result;
 }
 
