@@ -99,6 +99,8 @@ static int is_beginning(const struct experiment *experiments, size_t count,
 			if (strcmp(hash, other) != 0)
 				continue;
 			run_report_read(run->folder, &report);
+			if (report.unknown)
+				return error_memory(err, sizeof report);
 			*is = report.state != RUN_STATE_COMPLETE;
 		}
 	return 0;

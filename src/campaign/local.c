@@ -51,20 +51,19 @@ static bool is_stopped(const struct campaign *campaign)
  * nothing else is started, and the run is not to blame. */
 static void blame_disk(struct pool *pool, struct task *task)
 {
-	enum { LEAST = 1 << 16 };
+	enum { LEAST = 1 << 16 }; /* beside a checkpoint that may be larger than the last */
 	struct campaign *campaign = pool->campaign;
 	struct text path = {0};
 	struct error ignored = {0};
-	size_t room = LEAST, size;
+	size_t size = 0;
 
 	if ((task->state != TASK_FAILED && task->state != TASK_WAITING) ||
 		(task->code != EX_IOERR && task->code != EX_CANTCREAT))
 		return;
-	if (!file_path(&path, task->run->folder, "run.h5", &ignored) &&
-		file_size(text_string(&path), &size) && size > room)
-		room = size;
+	if (!file_path(&path, task->run->folder, "run.h5", &ignored))
+		(void)file_size(text_string(&path), &size);
 	text_clean(&path);
-	if (!file_has_room(campaign->experiment->folder, room, &campaign->fault))
+	if (!file_has_room(campaign->experiment->folder, 2 * size + LEAST, &campaign->fault))
 		task->state = TASK_INTERRUPTED;
 }
 

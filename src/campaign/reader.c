@@ -188,9 +188,12 @@ static int check_key(const struct reader *reader, const struct leaf_list *list, 
 	return 0;
 }
 
-/* A value, or a list of values or of lists of them (several values of a key that is a list itself). */
+/* A value, a mapping that says how values are made, or a list of values or of lists of them (several values
+ * of a key that is a list itself). */
 static int check_value(const struct reader *reader, const struct node *node, int depth)
 {
+	if (node->kind == NODE_MAPPING && !depth)
+		return 0;
 	if (node->kind == NODE_MAPPING || (node->kind == NODE_SEQUENCE && depth == 2))
 		return reader_fail(reader, node, "a value is wanted here, not %s", node_kind_name(node));
 	for (size_t i = 0; i < node->count; i++)

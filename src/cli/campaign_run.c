@@ -142,7 +142,7 @@ static void tell_failure(const struct task *task)
 	(void)fprintf(stderr, "talus: run %s %s", task->run->id,
 		task->state == TASK_FAILED ? "failed" : "could not write");
 	if (task->report.state == RUN_STATE_DAMAGED && !task->starts && !task->report.blocked) {
-		(void)fprintf(stderr, ": %s; --retry starts it anew\n", task->report.reason);
+		(void)fprintf(stderr, ": %s; `retry` starts it anew\n", task->report.reason);
 		return;
 	}
 	if (task->code)

@@ -49,12 +49,13 @@ done
 echo '== a campaign'
 printf 'base: collapse.yaml\nset: {checkpoint.every_steps: 20}\nruns: [{layers: [4, 5, 6, 7, 8]}]\n' >study.yaml
 full $((2 * size))
-masked talus campaign run -j 1 -o disk/study study.yaml >out 2>message
+masked talus campaign run -j 1 --order given --retry 3 -o disk/study study.yaml >out 2>message
 echo "exit $?"
 grep -c complete out
 grep -c 'are needed' message
+grep -c 'tried again' message
 tail -n 1 message | sed -E 's/[0-9.]+ kB/S kB/'
-talus campaign status -o disk/study study.yaml | tail -n 1
+talus campaign status -o disk/study study.yaml | tail -n 1 | grep -o '[0-9]* complete'
 mount -o remount,size=64m disk
 talus campaign run -j 1 -o disk/study study.yaml | tail -n 1
 umount disk

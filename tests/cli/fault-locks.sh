@@ -35,7 +35,7 @@ echo "exit ${PIPESTATUS[0]}"
 printf 'base: long.yaml\nruns: [{layers: [7]}]\n' >study.yaml
 unshare --fork --kill-child --pid --user --map-root-user talus campaign run study.yaml >/dev/null 2>&1 &
 wait_for 20 begun 1 results/study
-unshare --fork --kill-child --pid --user --map-root-user talus campaign run --dry-run study.yaml | mask
+unshare --fork --kill-child --pid --user --map-root-user talus campaign run --dry-run study.yaml | mask | head -n 1
 kill $(ps -o pid= --ppid "$(jobs -p | paste -sd,)") 2>/dev/null
 wait
 
