@@ -15,6 +15,7 @@ enum task_state {
 	TASK_WAITING,   /* for its turn */
 	TASK_RUNNING,   /* in a child of ours */
 	TASK_ELSEWHERE, /* another process works on it */
+	TASK_QUEUED,    /* in the queue of a cluster, which brings it to its end */
 	TASK_COMPLETE,
 	TASK_FAILED,
 	TASK_INTERRUPTED, /* the same command goes on with it */
@@ -43,6 +44,7 @@ struct campaign;
 struct campaign_watch {
 	void (*ended)(void *context, const struct campaign *campaign, const struct task *task);
 	void (*tick)(void *context, const struct campaign *campaign); /* about twice a second */
+	void (*told)(void *context, const char *line); /* what an executor says: a job's number */
 	void *context;
 };
 
@@ -52,16 +54,44 @@ struct campaign {
 	struct campaign_watch watch;
 	struct task *tasks; /* [experiment->run_count], in the order of the experiment */
 	bool stopping;      /* a signal asked for it */
+	int jobs_asked;     /* options.jobs before it got its default */
+};
+
+/* What the queue of a cluster says of a run. */
+struct queue_entry {
+	char job[32];     /* as the cluster's commands take it: "12_3"; "": not in the queue */
+	char state[32];   /* "PENDING", "RUNNING", ... */
+	char reason[128]; /* why it waits: "Resources" */
 };
 
 /* How runs are executed; a row of the table in executor.c. */
 struct executor {
 	const char *name;
+
+	/* Bring every task to its end, or into a queue that does so. */
 	int (*execute)(struct campaign *campaign, struct error *err);
+
+	/* Add what execute would hand over, such as a batch script, to `out`, and change nothing; NULL:
+	 * the states of the tasks say it all. */
+	int (*plan)(struct campaign *campaign, struct text *out, struct error *err);
+
+	/* Fill entries[experiment->run_count], all zeros before, for runs that are in the queue. Silent
+	 * and quick for an experiment that was never handed over. NULL: there is no queue. */
+	int (*queue)(
+		const struct experiment *experiment, struct queue_entry *entries, struct error *err);
+
+	/* Take the runs with chosen[i] (NULL: all) back from the queue, and count them; those that compute
+	 * write their checkpoints and stop. NULL: there is no queue. */
+	int (*cancel)(
+		const struct experiment *experiment, const bool *chosen, size_t *count, struct error *err);
 };
 
 /* NULL if there is none of that name. */
 const struct executor *executor_find(const char *name);
+
+/* Ask the queues of all executors: see struct executor. EX_UNAVAILABLE. */
+int executor_queue(
+	const struct experiment *experiment, struct queue_entry *entries, struct error *err);
 
 /* Look at every run: what is complete or failed, what is to be done. Changes nothing on disk. Clean
  * in every case. */
@@ -75,7 +105,8 @@ void campaign_clean(struct campaign *campaign);
  * when runs failed: see the tasks and campaign_code. EX_CANTCREAT, EX_IOERR, EX_SOFTWARE. */
 int campaign_execute(struct campaign *campaign, const struct executor *executor, struct error *err);
 
-/* The exit code of the campaign: EX_INTERRUPTED beats EX_FAILED beats 0. */
+/* The exit code of the campaign: EX_INTERRUPTED beats EX_FAILED beats 0. A run in a queue needs nobody to
+ * go on with it. */
 int campaign_code(const struct campaign *campaign);
 
 size_t campaign_count(const struct campaign *campaign, enum task_state state);

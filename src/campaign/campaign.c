@@ -10,7 +10,8 @@
 int campaign_create(struct campaign *campaign, const struct experiment *experiment,
 	const struct campaign_options *options, struct error *err)
 {
-	*campaign = (struct campaign){.experiment = experiment, .options = *options};
+	*campaign = (struct campaign){
+		.experiment = experiment, .options = *options, .jobs_asked = options->jobs};
 	if (!campaign->options.jobs)
 		campaign->options.jobs = (int)sysconf(_SC_NPROCESSORS_ONLN);
 	if (experiment->timing || campaign->options.jobs < 1)
@@ -51,7 +52,8 @@ size_t campaign_count(const struct campaign *campaign, enum task_state state)
 
 int campaign_code(const struct campaign *campaign)
 {
-	size_t ended = campaign_count(campaign, TASK_COMPLETE) + campaign_count(campaign, TASK_FAILED);
+	size_t ended = campaign_count(campaign, TASK_COMPLETE) + campaign_count(campaign, TASK_FAILED) +
+				   campaign_count(campaign, TASK_QUEUED);
 
 	if (ended < campaign->experiment->run_count)
 		return EX_INTERRUPTED;

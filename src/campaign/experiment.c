@@ -8,6 +8,7 @@
 #include "campaign/expand.h"
 #include "campaign/reader.h"
 #include "campaign/setting.h"
+#include "campaign/slurm.h"
 
 /* What the entries of an experiment file fill. */
 struct form {
@@ -181,6 +182,11 @@ static int share_published(const struct reader *reader, struct experiment *exper
 	return 0;
 }
 
+static int read_slurm(const struct reader *reader, const struct node *node, void *target)
+{
+	return slurm_read(reader, node, &((struct form *)target)->experiment->slurm);
+}
+
 static int read_form(const struct reader *reader, struct form *form)
 {
 	static const struct reader_key keys[] = {
@@ -193,6 +199,7 @@ static int read_form(const struct reader *reader, struct form *form)
 		{"timing", read_timing},
 		{"tables", read_tables},
 		{"published", read_published},
+		{"slurm", read_slurm},
 	};
 	struct experiment *experiment = form->experiment;
 
@@ -277,7 +284,8 @@ int experiment_read(struct experiment *experiment, const char *path, const char 
 	struct reader reader = {path, err};
 	struct form form = {.experiment = experiment};
 
-	*experiment = (struct experiment){.title = "", .source = "", .repeat = 1};
+	*experiment = (struct experiment){
+		.title = "", .source = "", .repeat = 1, .slurm = {.partition = "", .grace = SLURM_GRACE}};
 	experiment->path = strdup(path);
 	experiment->root = calloc(1, sizeof *experiment->root);
 	if (!experiment->path || !experiment->root)
@@ -316,6 +324,7 @@ void experiment_clean(struct experiment *experiment)
 	free(experiment->folder);
 	free(experiment->base);
 	free(experiment->base_text);
+	setting_list_clean(&experiment->slurm.directives);
 	setting_list_clean(&experiment->set);
 	setting_list_clean(&experiment->overrides);
 	if (experiment->root)

@@ -10,6 +10,9 @@
 /* Read the run's report into the task; a task that waits or is elsewhere changes its state with it. */
 void task_look(const struct campaign *campaign, struct task *task);
 
+/* Make the run's folder with its config.yaml. EX_CANTCREAT, EX_IOERR. */
+int task_write_config(const struct task *task, struct error *err);
+
 /* Make the run's folder with its config.yaml, and start the child with the signal mask `mask`. The
  * child inherits `timing` (NULL: none), which thus is held until it ends. Returns -1 with `err` when
  * there is no child. */

@@ -18,14 +18,17 @@ static const char help[] =
 	"  -h, --help           print this\n\n"
 	"options of run:\n"
 	"  -j, --jobs N         runs at a time; an experiment with `timing: true` makes it 1\n"
-	"                       (default: the number of processors)\n"
+	"                       (default: the number of processors; slurm: that of the experiment)\n"
 	"  -n, --dry-run        print what would be done and change nothing (default: off)\n"
 	"  -r, --retry          start failed runs anew (default: off)\n"
-	"  -e, --executor NAME  how runs are executed: local (default: local)\n\n"
+	"  -e, --executor NAME  how runs are executed: local, as processes of this machine, or slurm,\n"
+	"                       as job arrays of a cluster (default: local)\n\n"
 	"options of status:\n"
 	"      --json           print JSON (default: a table)\n\n"
 	"Ctrl-C stops all runs with their checkpoints written; the same command goes on from there.\n\n"
-	"exit: 0 all runs are complete, 1 one failed, 65 bad experiment, 75 stopped and resumable\n";
+	"exit: 0 all runs are complete or in a queue, 1 one failed, 65 bad experiment, 69 Slurm is "
+	"not\n"
+	"there or refuses, 75 stopped and resumable\n";
 
 enum { OPTION_JSON = 256 };
 

@@ -34,6 +34,8 @@ static const char *task_word(const struct task *task)
 	case TASK_RUNNING:
 	case TASK_ELSEWHERE:
 		return "running";
+	case TASK_QUEUED:
+		return "queued";
 	case TASK_WAITING:
 		break;
 	}
@@ -111,13 +113,17 @@ static void tell_failure(const struct task *task)
 static void tell_counts(const struct campaign *campaign, struct text *out)
 {
 	const struct experiment *experiment = campaign->experiment;
-	size_t ended = count_ended(campaign), failed = campaign_count(campaign, TASK_FAILED);
+	size_t failed = campaign_count(campaign, TASK_FAILED);
+	size_t queued = campaign_count(campaign, TASK_QUEUED);
+	size_t ended = count_ended(campaign) + queued;
 
 	text_addf(out, "%zu run%s in %s: %zu complete", experiment->run_count,
 		experiment->run_count == 1 ? "" : "s", experiment->folder,
 		campaign_count(campaign, TASK_COMPLETE));
 	if (failed)
 		text_addf(out, ", %zu failed", failed);
+	if (queued)
+		text_addf(out, ", %zu in the queue", queued);
 	if (ended < experiment->run_count)
 		text_addf(out, ", %zu unfinished", experiment->run_count - ended);
 	text_add(out, "\n");
@@ -138,6 +144,13 @@ static int tell_result(const struct campaign *campaign)
 	return code ? code : printed;
 }
 
+static void tell_line(void *context, const char *line)
+{
+	(void)context;
+	(void)printf("%s\n", line);
+	(void)fflush(stdout);
+}
+
 static int execute(struct campaign *campaign, const struct executor *executor)
 {
 	struct progress progress = {isatty(STDERR_FILENO), clock_wall(), 0};
@@ -146,11 +159,31 @@ static int execute(struct campaign *campaign, const struct executor *executor)
 	int result;
 
 	campaign_work(campaign, &progress.done_began, &all);
-	campaign->watch = (struct campaign_watch){tell_ended, tell_tick, &progress};
+	campaign->watch = (struct campaign_watch){tell_ended, tell_tick, tell_line, &progress};
 	result = campaign_execute(campaign, executor, &err);
 	if (progress.terminal)
 		(void)fprintf(stderr, "\r\033[K");
 	return result ? command_fail(&err) : tell_result(campaign);
+}
+
+static void tell_aside(void *context, const char *line)
+{
+	(void)context;
+	(void)fprintf(stderr, "talus: %s\n", line);
+}
+
+/* What the executor would hand over, alone on stdout. */
+static int print_handover(struct campaign *campaign, const struct executor *executor)
+{
+	struct text out = {0};
+	struct error err = {0};
+
+	campaign->watch.told = tell_aside;
+	if (executor->plan(campaign, &out, &err)) {
+		text_clean(&out);
+		return command_fail(&err);
+	}
+	return command_print(&out);
 }
 
 /* What `run` would do with each run. */
@@ -190,11 +223,14 @@ int campaign_run_main(
 	int code;
 
 	if (!executor)
-		return command_usage("campaign", "--executor %s: there is only local", arguments->executor);
+		return command_usage(
+			"campaign", "--executor %s: there are local and slurm", arguments->executor);
 	if (campaign_create(&campaign, experiment, &arguments->options, &err))
 		code = command_fail(&err);
+	else if (!arguments->dry_run)
+		code = execute(&campaign, executor);
 	else
-		code = arguments->dry_run ? print_plan(&campaign) : execute(&campaign, executor);
+		code = executor->plan ? print_handover(&campaign, executor) : print_plan(&campaign);
 	campaign_clean(&campaign);
 	return code;
 }

@@ -1,5 +1,6 @@
 /* talus campaign status: a line per run, or JSON. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,22 +17,56 @@ static double progress_of(const struct experiment_run *run, const struct run_rep
 	return run->config.time.end > 0 ? report->time / run->config.time.end : 0;
 }
 
-static void print_table(
-	const struct experiment *experiment, const struct run_report *reports, struct text *out)
+/* "RUNNING 12_3", "PENDING 12_4 (Resources)", "" */
+static void add_queue(const struct queue_entry *entry, struct text *out)
 {
-	int width = (int)strlen("RUN");
+	if (entry->job[0])
+		text_addf(out, "%s %s", entry->state, entry->job);
+	if (entry->job[0] && entry->reason[0] && strcmp(entry->reason, "None") != 0)
+		text_addf(out, " (%s)", entry->reason);
+}
+
+/* Of the column; 0 when no run is in a queue, and there is no such column. */
+static int queue_width(const struct experiment *experiment, const struct queue_entry *queue)
+{
+	struct text text = {0};
+	size_t width = 0;
+
+	for (size_t i = 0; i < experiment->run_count; i++) {
+		text.length = 0;
+		add_queue(&queue[i], &text);
+		if (text.length > width)
+			width = text.length > strlen("QUEUE") ? text.length : strlen("QUEUE");
+	}
+	text_clean(&text);
+	return (int)width;
+}
+
+static void print_table(const struct experiment *experiment, const struct run_report *reports,
+	const struct queue_entry *queue, struct text *out)
+{
+	int width = (int)strlen("RUN"), queued = queue_width(experiment, queue);
 
 	for (size_t i = 0; i < experiment->run_count; i++)
 		if ((int)strlen(experiment->runs[i].id) > width)
 			width = (int)strlen(experiment->runs[i].id);
-	text_addf(out, "%-*s  %-11s  PROGRESS     CPU s  ATTEMPTS  REASON\n", width, "RUN", "STATE");
+	text_addf(out, "%-*s  %-11s  PROGRESS     CPU s  ATTEMPTS  ", width, "RUN", "STATE");
+	if (queued)
+		text_addf(out, "%-*s  ", queued, "QUEUE");
+	text_add(out, "REASON\n");
 	for (size_t i = 0; i < experiment->run_count; i++) {
 		const struct run_report *report = &reports[i];
+		struct text entry = {0};
 
 		text_addf(out, "%-*s  %-11s  %6.1f %%  %8.1f  %8d", width, experiment->runs[i].id,
 			run_state_name(report->state), 100 * progress_of(&experiment->runs[i], report),
 			report->cpu_seconds, report->attempts);
+		add_queue(&queue[i], &entry);
+		if (report->reason[0] || entry.length)
+			text_addf(out, "%s%-*s", queued ? "  " : "", report->reason[0] ? queued : 0,
+				text_string(&entry));
 		text_addf(out, "%s%s\n", report->reason[0] ? "  " : "", report->reason);
+		text_clean(&entry);
 	}
 }
 
@@ -72,8 +107,23 @@ static void add_number(struct text *out, const char *name, double value)
 	text_add(out, ", ");
 }
 
-static void print_json_run(
-	const struct experiment_run *run, const struct run_report *report, struct text *out)
+static void print_json_queue(const struct queue_entry *entry, struct text *out)
+{
+	text_add(out, "\"queue\": ");
+	if (entry->job[0]) {
+		text_add(out, "{");
+		add_member(out, "job", entry->job);
+		add_member(out, "state", entry->state);
+		text_add(out, "\"reason\": ");
+		json_add_string(out, entry->reason);
+		text_add(out, "}, ");
+	} else {
+		text_add(out, "null, ");
+	}
+}
+
+static void print_json_run(const struct experiment_run *run, const struct run_report *report,
+	const struct queue_entry *entry, struct text *out)
 {
 	text_add(out, "    {");
 	add_member(out, "run", run->id);
@@ -93,13 +143,14 @@ static void print_json_run(
 	add_number(out, "end", run->config.time.end);
 	add_number(out, "wall_left", report->wall_left);
 	add_number(out, "cpu_seconds", report->cpu_seconds);
+	print_json_queue(entry, out);
 	text_addf(out, "\"attempts\": %d, \"reason\": ", report->attempts);
 	json_add_string(out, report->reason);
 	text_add(out, "}");
 }
 
 static void print_json(const struct experiment *experiment, const struct run_report *reports,
-	const size_t counts[STATES], struct text *out)
+	const struct queue_entry *queue, const size_t counts[STATES], struct text *out)
 {
 	text_add(out, "{\n  ");
 	add_member(out, "experiment", experiment->path);
@@ -107,7 +158,7 @@ static void print_json(const struct experiment *experiment, const struct run_rep
 	add_member(out, "folder", experiment->folder);
 	text_add(out, "\n  \"runs\": [\n");
 	for (size_t i = 0; i < experiment->run_count; i++) {
-		print_json_run(&experiment->runs[i], &reports[i], out);
+		print_json_run(&experiment->runs[i], &reports[i], &queue[i], out);
 		text_add(out, i + 1 < experiment->run_count ? ",\n" : "\n");
 	}
 	text_add(out, "  ],\n  \"counts\": {");
@@ -117,27 +168,43 @@ static void print_json(const struct experiment *experiment, const struct run_rep
 	text_add(out, "}\n}\n");
 }
 
-int campaign_status_main(
-	const struct campaign_arguments *arguments, const struct experiment *experiment)
+static int print_status(const struct campaign_arguments *arguments,
+	const struct experiment *experiment, struct run_report *reports, struct queue_entry *queue)
 {
-	struct run_report *reports = calloc(experiment->run_count, sizeof *reports);
 	size_t counts[STATES] = {0};
 	struct text out = {0};
 	struct error err = {0};
 
-	if (!reports) {
-		(void)error_memory(&err, experiment->run_count * sizeof *reports);
-		return command_fail(&err);
-	}
+	/* asked first: a run that leaves the queue in between is seen as what it came to */
+	if (executor_queue(experiment, queue, &err))
+		(void)fprintf(stderr, "talus: warning: the queue is not known: %s\n", err.text);
 	for (size_t i = 0; i < experiment->run_count; i++)
 		run_report_read(experiment->runs[i].folder, &reports[i]);
 	count_states(experiment, reports, counts);
 	if (arguments->json) {
-		print_json(experiment, reports, counts, &out);
+		print_json(experiment, reports, queue, counts, &out);
 	} else {
-		print_table(experiment, reports, &out);
+		print_table(experiment, reports, queue, &out);
 		print_counts(experiment, counts, &out);
 	}
-	free(reports);
 	return command_print(&out);
+}
+
+int campaign_status_main(
+	const struct campaign_arguments *arguments, const struct experiment *experiment)
+{
+	struct run_report *reports = calloc(experiment->run_count, sizeof *reports);
+	struct queue_entry *queue = calloc(experiment->run_count, sizeof *queue);
+	struct error err = {0};
+	int code;
+
+	if (reports && queue) {
+		code = print_status(arguments, experiment, reports, queue);
+	} else {
+		(void)error_memory(&err, experiment->run_count * (sizeof *reports + sizeof *queue));
+		code = command_fail(&err);
+	}
+	free(reports);
+	free(queue);
+	return code;
 }

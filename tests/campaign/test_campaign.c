@@ -162,7 +162,7 @@ static void interrupt_ourselves(void *context, const struct campaign *campaign)
 static void the_first_interrupt_stops_the_runs_and_the_second_ends_the_wait(void **state)
 {
 	int interrupts = 0;
-	const struct campaign_watch watch = {NULL, interrupt_ourselves, &interrupts};
+	const struct campaign_watch watch = {.tick = interrupt_ourselves, .context = &interrupts};
 	struct experiment e;
 	struct campaign c = execute(&e,
 		"#!/bin/sh\n"
