@@ -1,12 +1,23 @@
 # shellcheck shell=bash
-# A Slurm of this machine's own: one node on 127.0.0.1 with a munge, state, ports and logs of its own,
-# below $cluster. Started with cluster_start, ended with cluster_stop; nothing is left behind.
+# A Slurm of this machine's own: one node on 127.0.0.1 with munge, state, ports and logs of its own below
+# $cluster. cluster_start starts it, cluster_stop ends it and leaves nothing behind.
 
 cluster=$(mktemp -d "${TMPDIR:-/tmp}/talus-slurm-XXXXXX")
 export SLURM_CONF=$cluster/slurm.conf
-munged=() munged_pid='' slurmctld_pid='' slurmd_pid=''
+munged_pid='' slurmctld_pid='' slurmd_pid=''
 
-free_port() # FROM: the first port from there on that nobody listens on
+wait_for() # SECONDS COMMAND...: until it succeeds
+{
+	local end=$((SECONDS + $1))
+
+	shift
+	until "$@"; do
+		((SECONDS < end)) || return 1
+		sleep 0.1
+	done
+}
+
+free_port() # FROM: the first from there on that nobody listens on
 {
 	local port=$1
 
@@ -16,17 +27,19 @@ free_port() # FROM: the first port from there on that nobody listens on
 	echo "$port"
 }
 
+# The node claims four processors, whatever the machine has, so that more tasks could run at a time than
+# a throttle of two lets through.
 write_conf()
 {
-	local host ctld_port
+	local host port
 
 	host=$(hostname -s)
-	ctld_port=$(free_port $((20000 + RANDOM % 10000)))
+	port=$(free_port $((20000 + RANDOM % 10000)))
 	cat >"$SLURM_CONF" <<-END
 		ClusterName=talus
 		SlurmctldHost=$host(127.0.0.1)
-		SlurmctldPort=$ctld_port
-		SlurmdPort=$(free_port $((ctld_port + 1)))
+		SlurmctldPort=$port
+		SlurmdPort=$(free_port $((port + 1)))
 		SlurmUser=$(id -un)
 		SlurmdUser=$(id -un)
 		AuthType=auth/munge
@@ -44,50 +57,54 @@ write_conf()
 		MpiDefault=none
 		SelectType=select/cons_tres
 		SelectTypeParameters=CR_Core
-		AccountingStorageType=accounting_storage/none
-		JobAcctGatherType=jobacct_gather/none
+		SlurmdParameters=config_overrides
 		SchedulerParameters=batch_sched_delay=0,sched_interval=1,bf_interval=1
 		ReturnToService=2
 		MaxArraySize=4
-		SlurmdTimeout=10
-		KillWait=5
-		MinJobAge=60
-		NodeName=$host NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
+		SlurmdTimeout=5
+		KillWait=10
+		NodeName=$host NodeAddr=127.0.0.1 CPUs=4 RealMemory=1000 State=UNKNOWN
 		PartitionName=work Nodes=$host Default=YES MaxTime=10 DefaultTime=5
 	END
 }
 
 start_munged()
 {
+	local as_munge=()
+
 	install -d -m 755 "$cluster/munge"
 	dd if=/dev/urandom of="$cluster/munge/key" bs=1024 count=1 status=none
 	chmod 600 "$cluster/munge/key"
 	if (($(id -u) == 0)); then
 		chown -R munge: "$cluster/munge"
-		munged=(setpriv --reuid=munge --regid=munge --clear-groups)
+		as_munge=(setpriv --reuid=munge --regid=munge --clear-groups)
 	fi
-	"${munged[@]}" "$(command -v munged || echo /usr/sbin/munged)" --foreground \
-		--key-file="$cluster/munge/key" --socket="$cluster/munge/socket" \
-		--pid-file="$cluster/munge/pid" --seed-file="$cluster/munge/seed" \
-		--log-file="$cluster/munge/log" 2>"$cluster/munged.err" &
+	"${as_munge[@]}" munged --foreground --key-file="$cluster/munge/key" \
+		--socket="$cluster/munge/socket" --pid-file="$cluster/munge/pid" \
+		--seed-file="$cluster/munge/seed" --log-file="$cluster/munge/log" >"$cluster/munged.log" 2>&1 &
 	munged_pid=$!
 }
 
 start_slurmctld()
 {
-	slurmctld -D -f "$SLURM_CONF" >"$cluster/slurmctld.out" 2>&1 &
+	slurmctld -D -f "$SLURM_CONF" >/dev/null 2>&1 &
 	slurmctld_pid=$!
 }
 
 start_slurmd()
 {
-	slurmd -D -f "$SLURM_CONF" >"$cluster/slurmd.out" 2>&1 &
+	slurmd -D -f "$SLURM_CONF" >/dev/null 2>&1 &
 	slurmd_pid=$!
 }
 
 node_is_up()
 {
 	sinfo --noheader --format=%T 2>/dev/null | grep -Eq '^(idle|mixed|allocated)$'
+}
+
+node_is_down()
+{
+	sinfo --noheader --format=%T 2>/dev/null | grep -q '^down'
 }
 
 cluster_start()
@@ -102,3 +119,41 @@ cluster_start()
 	start_slurmd
 	wait_for 30 node_is_up
 }
+
+# The processes of this cluster's jobs and of the daemons that watch over them.
+job_processes()
+{
+	local folder
+
+	for folder in /proc/[0-9]*; do
+		tr '\0' '\n' <"$folder/environ" 2>/dev/null | grep -Fxq "SLURM_CONF=$SLURM_CONF" || continue
+		if [[ $(<"$folder/comm") == slurmstepd ]]; then
+			echo "${folder#/proc/}"
+		elif tr '\0' '\n' <"$folder/environ" | grep -q '^SLURM_JOB_ID='; then
+			echo "${folder#/proc/}"
+		fi
+	done 2>/dev/null
+}
+
+# The node dies: daemon, jobs and all. `slurmd` alone: only the daemon.
+kill_slurmd()
+{
+	kill -KILL "$slurmd_pid"
+	wait "$slurmd_pid"
+} 2>/dev/null
+
+kill_node()
+{
+	# shellcheck disable=SC2046 # a list
+	kill -KILL "$slurmd_pid" $(job_processes)
+	wait "$slurmd_pid"
+} 2>/dev/null
+
+cluster_stop()
+{
+	[[ ! $slurmd_pid ]] || kill_node
+	[[ ! $slurmctld_pid ]] || kill -KILL "$slurmctld_pid"
+	[[ ! $munged_pid ]] || kill "$munged_pid"
+	wait
+	rm -rf "$cluster"
+} 2>/dev/null
