@@ -73,6 +73,7 @@ static int submission_init(
 {
 	const struct experiment *experiment = campaign->experiment;
 	const char *program = campaign->options.program ? campaign->options.program : "/proc/self/exe";
+	char shown[256];
 
 	*submission = (struct submission){.campaign = campaign, .array_size = ARRAY_SIZE_DEFAULT};
 	submission->throttle = experiment->timing     ? 1
@@ -85,8 +86,9 @@ static int submission_init(
 		return error_set(err, EX_UNAVAILABLE, "%s is not there for the tasks to run", program);
 	TRY(make_absolute(experiment->folder, submission->folder, err));
 	if (!is_printable(submission->folder) || !is_printable(submission->program))
-		return error_at(err, EX_USAGE, experiment->folder, 0, 0,
-			"a path with a control character cannot be handed to Slurm; name another with -o");
+		return error_set(err, EX_USAGE,
+			"%s: a path with a control character cannot be handed to Slurm; name another with -o",
+			text_excerpt(experiment->folder, shown, sizeof shown));
 	return 0;
 }
 
