@@ -17,56 +17,38 @@ static double progress_of(const struct experiment_run *run, const struct run_rep
 	return run->config.time.end > 0 ? report->time / run->config.time.end : 0;
 }
 
-/* "RUNNING 12_3", "PENDING 12_4 (Resources)", "" */
-static void add_queue(const struct queue_entry *entry, struct text *out)
+/* What is known beside the numbers: "PENDING 12_4 (Resources)", why it stopped, or both. */
+static void add_remark(
+	const struct run_report *report, const struct queue_entry *entry, struct text *out)
 {
-	if (entry->job[0])
+	bool queued = entry->job[0] != '\0';
+
+	if (queued)
 		text_addf(out, "%s %s", entry->state, entry->job);
-	if (entry->job[0] && entry->reason[0] && strcmp(entry->reason, "None") != 0)
+	if (queued && entry->reason[0] && strcmp(entry->reason, "None") != 0)
 		text_addf(out, " (%s)", entry->reason);
-}
-
-/* Of the column; 0 when no run is in a queue, and there is no such column. */
-static int queue_width(const struct experiment *experiment, const struct queue_entry *queue)
-{
-	struct text text = {0};
-	size_t width = 0;
-
-	for (size_t i = 0; i < experiment->run_count; i++) {
-		text.length = 0;
-		add_queue(&queue[i], &text);
-		if (text.length > width)
-			width = text.length > strlen("QUEUE") ? text.length : strlen("QUEUE");
-	}
-	text_clean(&text);
-	return (int)width;
+	text_addf(out, "%s%s", queued && report->reason[0] ? "; " : "", report->reason);
 }
 
 static void print_table(const struct experiment *experiment, const struct run_report *reports,
 	const struct queue_entry *queue, struct text *out)
 {
-	int width = (int)strlen("RUN"), queued = queue_width(experiment, queue);
+	int width = (int)strlen("RUN");
 
 	for (size_t i = 0; i < experiment->run_count; i++)
 		if ((int)strlen(experiment->runs[i].id) > width)
 			width = (int)strlen(experiment->runs[i].id);
-	text_addf(out, "%-*s  %-11s  PROGRESS     CPU s  ATTEMPTS  ", width, "RUN", "STATE");
-	if (queued)
-		text_addf(out, "%-*s  ", queued, "QUEUE");
-	text_add(out, "REASON\n");
+	text_addf(out, "%-*s  %-11s  PROGRESS     CPU s  ATTEMPTS  REASON\n", width, "RUN", "STATE");
 	for (size_t i = 0; i < experiment->run_count; i++) {
 		const struct run_report *report = &reports[i];
-		struct text entry = {0};
+		struct text remark = {0};
 
 		text_addf(out, "%-*s  %-11s  %6.1f %%  %8.1f  %8d", width, experiment->runs[i].id,
 			run_state_name(report->state), 100 * progress_of(&experiment->runs[i], report),
 			report->cpu_seconds, report->attempts);
-		add_queue(&queue[i], &entry);
-		if (report->reason[0] || entry.length)
-			text_addf(out, "%s%-*s", queued ? "  " : "", report->reason[0] ? queued : 0,
-				text_string(&entry));
-		text_addf(out, "%s%s\n", report->reason[0] ? "  " : "", report->reason);
-		text_clean(&entry);
+		add_remark(report, &queue[i], &remark);
+		text_addf(out, "%s%s\n", remark.length ? "  " : "", text_string(&remark));
+		text_clean(&remark);
 	}
 }
 
