@@ -90,7 +90,7 @@ static const char body[] =
 	"\tsleep \"$pause\"\n"
 	"done\n"
 	"case $state in\n"
-	"RUNNING* | *TimeLimit) scontrol requeue \"$SLURM_JOB_ID\" && exit 0 ;;\n"
+	"RUNNING* | SIGNALING* | *TimeLimit) scontrol requeue \"$SLURM_JOB_ID\" && exit 0 ;;\n"
 	"esac\n"
 	"exit 75\n";
 

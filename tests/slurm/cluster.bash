@@ -4,7 +4,7 @@
 
 cluster=$(mktemp -d "${TMPDIR:-/tmp}/talus-slurm-XXXXXX")
 export SLURM_CONF=$cluster/slurm.conf
-munged_pid='' slurmctld_pid='' slurmd_pid=''
+munged_pid='' slurmctld_pid='' slurmctld_began='' slurmd_pid=''
 
 wait_for() # SECONDS COMMAND...: until it succeeds
 {
@@ -62,9 +62,12 @@ write_conf()
 		ReturnToService=2
 		MaxArraySize=4
 		SlurmdTimeout=5
+		PreemptType=preempt/partition_prio
+		PreemptMode=REQUEUE
 		KillWait=10
 		NodeName=$host NodeAddr=127.0.0.1 CPUs=4 RealMemory=1000 State=UNKNOWN
 		PartitionName=work Nodes=$host Default=YES MaxTime=10 DefaultTime=5
+		PartitionName=urgent Nodes=$host PriorityTier=9 MaxTime=10 DefaultTime=5
 	END
 }
 
@@ -88,7 +91,7 @@ start_munged()
 start_slurmctld()
 {
 	slurmctld -D -f "$SLURM_CONF" >/dev/null 2>&1 &
-	slurmctld_pid=$!
+	slurmctld_pid=$! slurmctld_began=$SECONDS
 }
 
 start_slurmd()
