@@ -98,14 +98,23 @@ static void submission_clean(struct submission *submission)
 	text_clean(&submission->after);
 }
 
-/* Timed runs wait for all that is in the queue, so that one runs at a time. */
+static bool is_among(const char *numbers, const char *number)
+{
+	size_t length = strlen(number);
+
+	for (const char *at = numbers; (at = strstr(at, number)); at++)
+		if (at[length] == ':' || at[length] == '\0')
+			return true;
+	return false;
+}
+
+/* The next array begins after the array of this task. */
 static void wait_for(struct submission *submission, const char *job)
 {
-	size_t length = strcspn(job, "_");
-	char number[sizeof((struct queue_entry){0}).job + 2];
+	char number[sizeof((struct queue_entry){0}).job + 1];
 
-	(void)snprintf(number, sizeof number, ":%.*s", (int)length, job);
-	if (!strstr(text_string(&submission->after), number))
+	(void)snprintf(number, sizeof number, ":%.*s", (int)strcspn(job, "_"), job);
+	if (!is_among(text_string(&submission->after), number))
 		text_add(&submission->after, number);
 }
 
@@ -120,7 +129,7 @@ static void choose_tasks(struct submission *submission, const struct queue_entry
 		task_look(campaign, task);
 		if (entries[i].job[0] && task->state != TASK_COMPLETE) {
 			task->state = TASK_QUEUED;
-			if (campaign->experiment->timing)
+			if (campaign->experiment->timing) /* one at a time, whoever submitted it */
 				wait_for(submission, entries[i].job);
 		} else if (task->state == TASK_WAITING) {
 			submission->tasks[submission->count++] = task;

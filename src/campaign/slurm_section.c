@@ -106,7 +106,7 @@ static int read_time(const struct reader *reader, const struct node *node, void 
 
 static int read_grace(const struct reader *reader, const struct node *node, void *target)
 {
-	long seconds; /* sbatch keeps it in 16 bits */
+	long seconds = 0; /* sbatch keeps it in 16 bits */
 
 	TRY(read_seconds(reader, node, 1, UINT16_MAX, &seconds));
 	((struct experiment_slurm *)target)->grace = (int)seconds;

@@ -65,6 +65,12 @@ talus campaign status --json study.yaml | python3 -c '
 import json, sys
 print(json.load(sys.stdin)["runs"][2]["queue"])'
 
+echo '--- a timed run waits for all that is in the queue'
+{ cat study.yaml && echo 'timing: true'; } >timed.yaml
+sed -i '$d' queue/4
+talus campaign run -e slurm -o results/study timed.yaml | mask | sed "s/([^)]*)/(NAME)/"
+tail -n 1 calls | grep -o 'array=.*afterany[:0-9]*'
+
 echo '--- runs that are complete or failed, a queue that is silent, two submissions at once'
 rm queue/*
 talus campaign run -j 1 study.yaml >/dev/null
