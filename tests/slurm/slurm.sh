@@ -109,7 +109,7 @@ slurm: {time: "1:00", grace: 55 s}
 END1
 cat >storm.yaml <<'END1'
 base: base.yaml
-set: {time.cfl: 0.035, checkpoint.every_steps: 50}
+set: {time.cfl: 0.025, checkpoint.every_steps: 50}
 runs: [{layers: [8, 7]}]
 END1
 cat >broken.yaml <<'END1'
@@ -181,9 +181,12 @@ pass "a task near its time limit stops, goes back into the queue and goes on whe
 
 submit storm || fail "$said"
 wait_for 60 at_work storm || fail "storm: $(states storm)"
+other=$(sed 's/process \([0-9]*\) .*/\1/' results/storm/layers-7*/run.lock)
+kill -STOP "$other" # it is to be there for what follows
 scontrol requeue "$(states storm | awk 'NR == 1 {print $3}')" || fail "scontrol requeue"
 wait_for 20 computes 1 storm || fail "requeue: $(states storm)"
 wait_for 60 at_work storm || fail "a requeued task does not come back: $(states storm)"
+kill -CONT "$other"
 grep -q 'resumed at step [1-9]' results/storm/layers-8*/run.log || fail "requeue: not resumed"
 pass "a requeued task goes on where it was"
 
