@@ -42,6 +42,19 @@ task USR1 'COMPLETING TimeLimit'
 grep -v user calls | sort | uniq -c
 task '' 'RUNNING None'
 talus run "$run/config.yaml" -o straight -q && talus diff "$run" straight >/dev/null && echo same
+# It waits for a run that takes its time to stop.
+cat >slow <<'EOF'
+#!/bin/bash
+trap 'sleep 1; echo "stopped by $1" >"$STOPPED"; exit 75' USR1
+echo 'begun at step 0'
+while :; do sleep 0.05; done
+EOF
+chmod +x slow
+export STOPPED=$PWD/stopped
+sed -i "s|^program=.*|program=$PWD/slow|" results/study/slurm/*.sh
+task USR1 'RUNNING None' >/dev/null
+cat stopped
+
 mv "$run/run.log" kept && ln -s "$PWD/outside" "$run/run.log"
 bash results/study/slurm/*.sh | sed "s|$PWD|PWD|" | mask
 echo "exit ${PIPESTATUS[0]}"
