@@ -42,7 +42,7 @@ SELECTED = $(if $(TESTS),$(sort $(foreach word,$(TESTS),$(foreach test,$1,$(if $
 
 .DEFAULT_GOAL := all
 .PHONY: all lib programs deps quickstart check test asan ubsan widths valgrind coverage clang tidy format \
-	format-check symbols bench soak tables install clean distclean help $(EXPERIMENTS)
+	format-check symbols bench soak slurm-check tables install clean distclean help $(EXPERIMENTS)
 .SECONDARY:
 .DELETE_ON_ERROR:
 
@@ -218,6 +218,12 @@ soak:
 	@scripts/deps build check
 	$(Q)$(MAKE) $(SUB) all
 	$(Q)TALUS_ROOT=$(CURDIR) PATH=$(abspath $(BIN)):$$PATH tests/soak/soak.sh $(SOAK)
+
+## slurm-check: campaigns on a real Slurm, started and stopped by the test
+slurm-check:
+	@scripts/deps build check slurm
+	$(Q)$(MAKE) $(SUB) all
+	$(Q)PATH=$(abspath $(BIN)):$$PATH tests/slurm/slurm.sh
 
 ## install: programs, library and headers below PREFIX (/usr/local)
 install: all

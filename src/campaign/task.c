@@ -55,7 +55,7 @@ void task_look(const struct campaign *campaign, struct task *task)
 }
 
 /* Two campaigns may do this at the same moment: each writes under a name of its own. */
-static int write_config(const struct task *task, struct error *err)
+int task_write_config(const struct task *task, struct error *err)
 {
 	const char *folder = task->run->folder;
 	struct text config = {0}, path = {0}, final = {0};
@@ -133,7 +133,7 @@ int task_start(const struct campaign *campaign, struct task *task, const sigset_
 	pid_t parent = getpid();
 	int result = -1;
 
-	if (write_config(task, err) || file_path(&config, task->run->folder, "config.yaml", err) ||
+	if (task_write_config(task, err) || file_path(&config, task->run->folder, "config.yaml", err) ||
 		file_path(&log, task->run->folder, "run.log", err))
 		goto done;
 	/* what the program has buffered would be written twice */

@@ -19,6 +19,9 @@ void task_look(const struct campaign *campaign, struct task *task);
 /* The folder of the run that a run without a file begins with; NULL: it starts at 0. */
 const char *task_from(const struct campaign *campaign, const struct task *task);
 
+/* Make the run's folder with its config.yaml. EX_CANTCREAT, EX_IOERR. */
+int task_write_config(const struct task *task, struct error *err);
+
 /* Make the run's folder with its config.yaml, and start the child with the signal mask `mask`. The
  * child inherits `timing` (NULL: none), which thus is held until it ends. Returns -1 with `err` when
  * there is no child. */
