@@ -4,6 +4,7 @@
 #include <ctype.h>
 #include <limits.h>
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,19 +14,28 @@
 #include "base/file.h"
 #include "base/lock.h"
 #include "base/process.h"
+#include "campaign/order.h"
 #include "campaign/task.h"
 
 enum { ARRAY_SIZE_DEFAULT = 1001 }; /* Slurm's own */
+
+/* A task to submit. */
+struct item {
+	struct task *task;
+	int depth;   /* tasks of its chain that are to end before it begins: see campaign_execute */
+	size_t turn; /* by campaign_order */
+};
 
 /* What one `campaign run` hands over. */
 struct submission {
 	struct campaign *campaign;
 	char folder[PATH_MAX], program[PATH_MAX]; /* absolute */
-	struct task **tasks;                      /* to submit, [count] */
+	struct item *items;                       /* [count], by depth and turn */
 	size_t count;
 	size_t array_size; /* tasks in an array at most */
 	int throttle;      /* tasks at a time, 0: no limit of ours */
 	struct text after; /* ":12:13": the arrays that are to end before the next one begins */
+	struct text level; /* the arrays of the depth that is being submitted */
 	unsigned serial;   /* tells the arrays of this folder apart */
 };
 
@@ -79,9 +89,9 @@ static int submission_init(
 	submission->throttle = experiment->timing     ? 1
 						   : campaign->jobs_asked ? campaign->jobs_asked
 												  : experiment->slurm.throttle;
-	submission->tasks = calloc(experiment->run_count, sizeof(struct task *));
-	if (!submission->tasks)
-		return error_memory(err, experiment->run_count * sizeof(struct task *));
+	submission->items = calloc(experiment->run_count, sizeof *submission->items);
+	if (!submission->items)
+		return error_memory(err, experiment->run_count * sizeof *submission->items);
 	if (!realpath(program, submission->program))
 		return error_set(err, EX_UNAVAILABLE, "%s is not there for the tasks to run", program);
 	TRY(make_absolute(experiment->folder, submission->folder, err));
@@ -94,8 +104,9 @@ static int submission_init(
 
 static void submission_clean(struct submission *submission)
 {
-	free(submission->tasks);
+	free(submission->items);
 	text_clean(&submission->after);
+	text_clean(&submission->level);
 }
 
 static bool is_among(const char *numbers, const char *number)
@@ -108,18 +119,39 @@ static bool is_among(const char *numbers, const char *number)
 	return false;
 }
 
-/* The next array begins after the array of this task. */
-static void wait_for(struct submission *submission, const char *job)
+/* Add the array of this task. */
+static void add_array(struct text *arrays, const char *job)
 {
 	char number[sizeof((struct queue_entry){0}).job + 1];
 
 	(void)snprintf(number, sizeof number, ":%.*s", (int)strcspn(job, "_"), job);
-	if (!is_among(text_string(&submission->after), number))
-		text_add(&submission->after, number);
+	if (!is_among(text_string(arrays), number))
+		text_add(arrays, number);
 }
 
-/* The tasks that are neither at their end nor in the queue nor at work elsewhere. */
-static void choose_tasks(struct submission *submission, const struct queue_entry *entries)
+/* The task that this one goes on from once it has ended, if that lies ahead; else NULL. */
+static struct task *task_ahead(const struct campaign *campaign, const struct task *task)
+{
+	struct task *before;
+
+	if (task->report.state != RUN_STATE_PENDING || task->before == SIZE_MAX)
+		return NULL;
+	before = &campaign->tasks[task->before];
+	return before->state == TASK_WAITING || before->state == TASK_QUEUED ? before : NULL;
+}
+
+/* By depth, so that an array holds none that waits for another in it. */
+static int compare_items(const void *a, const void *b)
+{
+	const struct item *x = a, *y = b;
+
+	if (x->depth != y->depth)
+		return x->depth < y->depth ? -1 : 1;
+	return x->turn < y->turn ? -1 : x->turn > y->turn;
+}
+
+/* Look at the tasks once more: which of them are in the queue? */
+static void look_at_tasks(struct submission *submission, const struct queue_entry *entries)
 {
 	struct campaign *campaign = submission->campaign;
 
@@ -127,16 +159,40 @@ static void choose_tasks(struct submission *submission, const struct queue_entry
 		struct task *task = &campaign->tasks[i];
 
 		task_look(campaign, task);
-		if (task->state == TASK_LEFT)
+		task->queue = entries[i];
+		if (!task->queue.job[0] || task->state == TASK_COMPLETE)
 			continue;
-		if (entries[i].job[0] && task->state != TASK_COMPLETE) {
+		if (campaign->experiment->timing) /* one at a time, whoever submitted it */
+			add_array(&submission->after, task->queue.job);
+		if (task->state != TASK_LEFT)
 			task->state = TASK_QUEUED;
-			if (campaign->experiment->timing) /* one at a time, whoever submitted it */
-				wait_for(submission, entries[i].job);
-		} else if (task->state == TASK_WAITING) {
-			submission->tasks[submission->count++] = task;
-		}
 	}
+}
+
+/* The tasks that are neither at their end nor in the queue nor at work elsewhere. */
+static int choose_tasks(
+	struct submission *submission, const struct queue_entry *entries, struct error *err)
+{
+	const struct campaign *campaign = submission->campaign;
+	struct task **order;
+
+	look_at_tasks(submission, entries);
+	order = campaign_order(campaign, err);
+	if (!order)
+		return -1;
+	for (size_t i = 0; i < campaign->experiment->run_count; i++) {
+		struct item item = {order[i], 0, i};
+
+		if (item.task->state != TASK_WAITING)
+			continue;
+		for (const struct task *t = item.task; (t = task_ahead(campaign, t));)
+			item.depth++;
+		submission->items[submission->count++] = item;
+	}
+	free(order);
+	if (submission->count)
+		qsort(submission->items, submission->count, sizeof *submission->items, compare_items);
+	return 0;
 }
 
 /* MaxArraySize of the cluster: the greatest index is one less. */
@@ -159,20 +215,34 @@ static int ask_array_size(struct submission *submission, struct error *err)
 	return result;
 }
 
+/* The folder of the run that a task goes on from, if it has none of its own; NULL: it starts at 0. */
+static const char *find_from(const struct campaign *campaign, const struct task *task)
+{
+	const struct task *ahead = task_ahead(campaign, task);
+
+	return ahead ? ahead->run->folder : task_from(campaign, task);
+}
+
+static int prepare_task(const struct campaign *campaign, const struct task *task, struct error *err)
+{
+	const char *from = find_from(campaign, task);
+
+	if (!is_printable(task->run->folder) || (from && !is_printable(from)))
+		return error_set(err, EX_CANTCREAT, "the name of %s has a control character; rename it",
+			is_printable(task->run->folder) ? "the folder that it goes on from" : "its folder");
+	return task_write_config(task, err);
+}
+
 /* A run whose folder or config cannot be written fails alone. */
 static int prepare_tasks(struct submission *submission, struct error *err)
 {
 	size_t kept = 0;
 
 	for (size_t i = 0; i < submission->count; i++) {
-		struct task *task = submission->tasks[i];
-		int result = is_printable(task->run->folder)
-						 ? task_write_config(task, err)
-						 : error_set(err, EX_CANTCREAT,
-							   "the name of its folder has a control character; rename it");
+		struct task *task = submission->items[i].task;
 
-		if (result == 0) {
-			submission->tasks[kept++] = task;
+		if (prepare_task(submission->campaign, task, err) == 0) {
+			submission->items[kept++] = submission->items[i];
 			continue;
 		}
 		if (err->code != EX_CANTCREAT && err->code != EX_IOERR)
@@ -217,16 +287,16 @@ static bool is_taken(const struct submission *submission, const char *name)
 
 static struct slurm_array make_array(struct submission *submission, size_t first)
 {
+	const struct item *items = submission->items;
 	struct slurm_array array = {.section = &submission->campaign->experiment->slurm,
 		.folder = submission->folder,
 		.program = submission->program,
 		.first = first,
-		.count = submission->count - first,
-		.throttle = submission->throttle,
-		.retry = submission->campaign->options.retry};
+		.throttle = submission->throttle};
 
-	if (array.count > submission->array_size)
-		array.count = submission->array_size;
+	while (array.count < submission->array_size && first + array.count < submission->count &&
+		   items[first + array.count].depth == items[first].depth)
+		array.count++;
 	do {
 		submission->serial++;
 		name_array(submission, array.name);
@@ -252,6 +322,20 @@ static int write_file(const struct submission *submission, const char *name, con
 	return result;
 }
 
+/* What the script tells `talus run` beside the config; a task that comes back from the queue is told it
+ * again, when its run has a file and is not failed, and neither means anything. */
+static void add_run(const struct campaign *campaign, const struct task *task, struct text *runs)
+{
+	const char *from = find_from(campaign, task);
+
+	text_add(runs, slurm_run_name(task->run->folder));
+	if (task->report.state == RUN_STATE_FAILED)
+		text_add(runs, "\t--retry");
+	if (from)
+		text_addf(runs, "\t--continue-from\t./%s", slurm_run_name(from));
+	text_add(runs, "\n");
+}
+
 static int write_array(
 	const struct submission *submission, const struct slurm_array *array, struct error *err)
 {
@@ -259,7 +343,7 @@ static int write_array(
 	int result;
 
 	for (size_t i = 0; i < array->count; i++)
-		text_addf(&runs, "%s\n", slurm_run_name(submission->tasks[array->first + i]->run));
+		add_run(submission->campaign, submission->items[array->first + i].task, &runs);
 	slurm_script_write(array, &script);
 	result = write_file(submission, array->name, ".runs", &runs, err);
 	if (result == 0)
@@ -284,7 +368,8 @@ static int call_sbatch(const struct submission *submission, const struct slurm_a
 	slurm_script_range(array, &range);
 	text_addf(&after, "--dependency=afterany%s", text_string(&submission->after));
 	text_addf(&script, "%s/" SLURM_FOLDER "/%s.sh", submission->folder, array->name);
-	if (chdir.failed || name.failed || range.failed || after.failed || script.failed) {
+	if (chdir.failed || name.failed || range.failed || after.failed || script.failed ||
+		submission->after.failed) {
 		error_memory(err, PATH_MAX);
 		goto done;
 	}
@@ -306,19 +391,38 @@ done:
 	return result;
 }
 
+/* What the tasks of an array go on from comes to its end before it: the arrays of one depth less, and
+ * what an earlier command has in the queue. */
+static void wait_for_chains(struct submission *submission, const struct slurm_array *array)
+{
+	const struct item *items = &submission->items[array->first];
+
+	if (array->first && items[0].depth != items[-1].depth && !submission->throttle) {
+		text_clean(&submission->after);
+		submission->after = submission->level;
+		submission->level = (struct text){0};
+	}
+	for (size_t i = 0; i < array->count; i++) {
+		const struct task *ahead = task_ahead(submission->campaign, items[i].task);
+
+		if (ahead && ahead->queue.job[0])
+			add_array(&submission->after, ahead->queue.job);
+	}
+}
+
 static int submit_array(struct submission *submission, size_t *first, struct error *err)
 {
 	const struct slurm_array array = make_array(submission, *first);
 	char job[16];
 
 	TRY(write_array(submission, &array, err));
+	wait_for_chains(submission, &array);
 	TRY(call_sbatch(submission, &array, job, err));
 	for (size_t i = 0; i < array.count; i++)
-		submission->tasks[*first + i]->state = TASK_QUEUED;
-	/* a throttle is one array's: the next one begins after it */
-	text_clean(&submission->after);
-	if (submission->throttle)
-		wait_for(submission, job);
+		submission->items[*first + i].task->state = TASK_QUEUED;
+	if (submission->throttle) /* which is one array's: the next one begins after it */
+		text_clean(&submission->after);
+	add_array(submission->throttle ? &submission->after : &submission->level, job);
 	tell(submission, "job %s: %zu run%s (%s)", job, array.count, array.count == 1 ? "" : "s",
 		array.name);
 	*first += array.count;
@@ -346,10 +450,10 @@ static int submit(struct submission *submission, struct error *err)
 	if (!entries)
 		return error_memory(err, experiment->run_count * sizeof *entries);
 	result = slurm_queue(experiment, entries, err);
-	if (result == 0) {
-		choose_tasks(submission, entries);
+	if (result == 0)
+		result = choose_tasks(submission, entries, err);
+	if (result == 0)
 		result = submit_all(submission, err);
-	}
 	free(entries);
 	return result;
 }
@@ -411,9 +515,9 @@ int slurm_plan(struct campaign *campaign, struct text *out, struct error *err)
 		slurm_queue(campaign->experiment, entries, &silence))
 		tell(&submission, "%s; an empty queue and arrays of %zu tasks are assumed", silence.text,
 			submission.array_size);
-	choose_tasks(&submission, entries);
-	print_scripts(&submission, out);
-	result = 0;
+	result = choose_tasks(&submission, entries, err);
+	if (result == 0)
+		print_scripts(&submission, out);
 done:
 	submission_clean(&submission);
 	free(entries);

@@ -1,7 +1,7 @@
 /* The executor of clusters that run Slurm: the runs become the tasks of job arrays.
  *
- * What lies in <folder of the run folders>/slurm: per array NAME.sh, the batch script; NAME.runs, the
- * folder of each task's run, one a line; NAME.log, what Slurm says of its tasks. NAME is the name of
+ * What lies in <folder of the run folders>/slurm: per array NAME.sh, the batch script; NAME.runs, a
+ * line for each task: the folder of its run, and after tabs what more `talus run` is told; NAME.log, what Slurm says of its tasks. NAME is the name of
  * the job as well, so that the queue alone tells which tasks it holds: nothing is recorded after the
  * submission that a crash could lose, and no accounting is asked. */
 #ifndef TALUS_SLURM_H
@@ -33,15 +33,14 @@ struct slurm_array {
 	const char *program; /* absolute */
 	size_t first, count; /* of the submission's runs: those of this array */
 	int throttle;        /* tasks at a time; 0: no limit of ours */
-	bool retry;          /* start failed runs anew */
 };
 
 /* "0-99%20", for --array. */
 void slurm_script_range(const struct slurm_array *array, struct text *out);
 void slurm_script_write(const struct slurm_array *array, struct text *out);
 
-/* The run as the lists of runs name it. */
-const char *slurm_run_name(const struct experiment_run *run);
+/* The folder of a run as the lists of runs name it. */
+const char *slurm_run_name(const char *folder);
 
 /* Rows of the executors' table: see struct executor. */
 int slurm_execute(struct campaign *campaign, struct error *err);

@@ -10,7 +10,7 @@
 #include "base/process.h"
 #include "campaign/slurm.h"
 
-/* The lines of a NAME.runs. */
+/* The runs of a NAME.runs. */
 struct array_runs {
 	char name[SLURM_NAME_SIZE];
 	char *text;         /* cut into lines; NULL: there is no such file */
@@ -36,9 +36,9 @@ static int compare_names(const void *a, const void *b)
 	return strcmp(((const struct named_run *)a)->name, ((const struct named_run *)b)->name);
 }
 
-const char *slurm_run_name(const struct experiment_run *run)
+const char *slurm_run_name(const char *folder)
 {
-	return strrchr(run->folder, '/') + 1;
+	return strrchr(folder, '/') + 1;
 }
 
 static int lookup_init(
@@ -49,7 +49,7 @@ static int lookup_init(
 	if (!lookup->runs)
 		return error_memory(err, experiment->run_count * sizeof *lookup->runs);
 	for (size_t i = 0; i < experiment->run_count; i++)
-		lookup->runs[i] = (struct named_run){slurm_run_name(&experiment->runs[i]), i};
+		lookup->runs[i] = (struct named_run){slurm_run_name(experiment->runs[i].folder), i};
 	qsort(lookup->runs, experiment->run_count, sizeof *lookup->runs, compare_names);
 	return 0;
 }
@@ -76,6 +76,7 @@ static int cut_lines(struct array_runs *array, struct error *err)
 		return error_memory(err, (count + 1) * sizeof *array->lines);
 	for (char *line = array->text, *end; (end = strchr(line, '\n')); line = end + 1) {
 		*end = '\0';
+		line[strcspn(line, "\t")] = '\0';
 		array->lines[array->count++] = line;
 	}
 	return 0;

@@ -65,7 +65,8 @@ static const char body[] =
 	"trap 'forward TERM' TERM\n"
 	"\n"
 	"cd \"$folder\" || exit 74\n"
-	"run=$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" \"$runs\")\n"
+	"IFS=$'\\t' read -r -a words < <(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" \"$runs\")\n"
+	"run=${words[0]}\n"
 	"[[ $run && -d $run ]] || {\n"
 	"\techo \"task $SLURM_ARRAY_TASK_ID: $folder/$run: there is no such run folder\"\n"
 	"\texit 74\n"
@@ -78,7 +79,7 @@ static const char body[] =
 	"exec >>\"$log\" 2>&1 || exit 74\n"
 	"\n"
 	"# bash acts on a signal only while it waits\n"
-	"\"$program\" run \"./$run/config.yaml\" -o \"./$run\" --quiet $retry &\n"
+	"\"$program\" run \"./$run/config.yaml\" -o \"./$run\" --quiet \"${words[@]:1}\" &\n"
 	"child=$!\n"
 	"[[ ! $stop ]] || kill -s \"$stop\" \"$child\" 2>/dev/null\n"
 	"while wait \"$child\"; code=$?; ((code > 128)) && kill -0 \"$child\" 2>/dev/null; do :; done\n"
@@ -107,6 +108,6 @@ void slurm_script_write(const struct slurm_array *array, struct text *out)
 	add_assignment(out, "folder", array->folder);
 	text_addf(out, "runs='%s/%s.runs'\n", SLURM_FOLDER, array->name);
 	add_assignment(out, "program", array->program);
-	text_addf(out, "retry=%s\n\n", array->retry ? "--retry" : "");
+	text_add(out, "\n");
 	text_add(out, body);
 }

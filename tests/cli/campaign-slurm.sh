@@ -1,6 +1,6 @@
 # The executor of clusters with commands in the place of Slurm's: the script, what is submitted and what is
 # not, queue states beside run states. (make slurm-check has a real Slurm.)
-source "$TALUS_ROOT/tests/cli/campaign-parts.bash"
+source "$TALUS_ROOT/tests/cli/slurm-parts.bash"
 cat >study.yaml <<'EOF'
 title: "A study\n#SBATCH --wrap=none"
 base: collapse.yaml
@@ -14,10 +14,6 @@ slurm:
   directives: {account: granular, exclusive: true, hint: false}
 EOF
 program=$(command -v talus)
-slurm_mask()
-{
-	sed -E "s/(talus-study-)[0-9a-f]{8}/\1NAME/g; s/^folder='[^']*'/folder=.../; s/^program=.*/program=.../; s/-[0-9a-f]{8}$/-HASH/"
-}
 
 echo '--- without Slurm'
 mkdir none
@@ -26,23 +22,6 @@ echo "exit $?"
 PATH=$PWD/none "$program" campaign run -e slurm --dry-run study.yaml | slurm_mask
 ls results/study/slurm 2>&1
 
-mkdir shim queue
-shim() # NAME SCRIPT
-{
-	printf '#!/bin/bash\n%s\n' "$2" >"shim/$1" && chmod +x "shim/$1"
-}
-shim scontrol 'printf "Configuration data\nMaxArraySize            = 2\nMaxJobCount = 9\n"'
-shim sbatch '[[ $1 == --version ]] && exit
-echo "sbatch $*" >>calls
-[[ ! -e refuse ]] || { echo "sbatch: error: Batch job submission failed: $(<refuse)" >&2; exit 1; }
-job=$(wc -l <calls) name=${3#--job-name=}
-n=0
-while read -r run; do
-	echo "${job}_$n PENDING $name ${REASON:-Resources}" >>queue/$job
-	n=$((n + 1))
-done <"${2#--chdir=}/slurm/$name.runs"
-echo "$job;cluster"'
-shim squeue 'cat queue/* 2>/dev/null; echo "7_1 RUNNING other None"; echo "8 PENDING ../x (null)"; echo nonsense'
 PATH=$PWD/shim:$PATH
 
 echo '--- submitted in two arrays, one after the other'

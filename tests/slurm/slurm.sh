@@ -66,6 +66,11 @@ at_work() # STUDY: all that is not complete computes, and something does
 	(($(count '^(running|complete)' "$1") == $(count . "$1"))) && ! is_complete "$1" && sleep 0.5
 }
 
+says() # STUDY PATTERN: a log of its runs does
+{
+	cat "results/$1"/*/run.log 2>/dev/null | grep -q "$2"
+}
+
 submit() # STUDY OPTION...: what it says is in $said
 {
 	said=$(talus campaign run --executor slurm "${@:2}" "$1.yaml" 2>&1)
@@ -112,9 +117,13 @@ base: base.yaml
 set: {time.cfl: 0.0025, checkpoint.every_steps: 500}
 runs: [{layers: [8, 7]}]
 END1
+cat >longer.yaml <<'END1'
+base: base.yaml
+runs: [{time.end: [0.9 s, 1 s]}]
+END1
 cat >broken.yaml <<'END1'
 base: base.yaml
-set: {pressure_solver.max_iterations: 3}
+set: {pressure_solver: {method: block-gauss-seidel, max_iterations: 3}}
 END1
 
 (
@@ -141,15 +150,15 @@ wait_for 30 is_over broken || fail "the broken run stays in the queue"
 submit broken
 (($? == 1)) || fail "a failed run: exit code 1 is wanted: $said"
 ! submitted || fail "a failed run was submitted without --retry: $said"
-submit broken --retry || fail "a failed run is not submitted with --retry: $said"
+submit broken --retry 1 || fail "a failed run is not submitted with --retry: $said"
 submitted || fail "a failed run is not submitted with --retry: $said"
 wait_for 30 is_over broken || fail "the broken run stays in the queue"
 grep -q 'attempt 2: started' results/broken/*/run.log || fail "--retry did not start a failed run anew"
-submit broken --retry --set layers=2 -o 'results/line
+submit broken --retry 2 --set layers=2 -o 'results/line
 break'
 (($? == 64)) || fail "a path with a line break: exit code 64 is wanted: $said"
 sed -i '$a slurm: {partition: none}' broken.yaml
-submit broken --retry
+submit broken --retry 2
 (($? == 69)) && [[ $said == *'Invalid partition'* ]] || fail "no such partition: $said"
 pass "failed runs are submitted when asked for alone, and a refusal of sbatch is told"
 
@@ -174,9 +183,17 @@ submit array || fail "all complete: $said"
 ! submitted || fail "complete runs were submitted: $said"
 pass "arrays are split at MaxArraySize and throttled over all of them; nothing is submitted twice"
 
+submit longer || fail "$said"
+wait_for 60 is_complete longer || fail "longer: $(states longer)"
+says longer 'goes on from ./.*, a run to 0.9 s' || fail "the longer run did not go on from the shorter one"
+(($(cat results/longer/*/run.log | grep -c 'started at step 0') == 1)) || fail "the longer run started at 0"
+talus diff results/array/layers-8* "$(grep -l 'goes on' results/longer/*/run.log | sed 's|/run.log||')" \
+	>/dev/null || fail "the run that went on differs from the one that did not"
+pass "a run with a later end waits for the one that it goes on from, and equals one that did not"
+
 wait "$limit_pid" || fail "$(cat limit.said)"
-wait_for 90 grep -q 'interrupted: .*SIGUSR1' results/limit/*/run.log || fail "the time limit stopped nobody"
-wait_for 60 grep -q 'resumed at step [1-9]' results/limit/*/run.log || fail "not resumed after the time limit"
+wait_for 90 says limit 'interrupted: .*SIGUSR1' || fail "the time limit stopped nobody"
+wait_for 60 says limit 'resumed at step [1-9]' || fail "not resumed after the time limit"
 pass "a task near its time limit stops, goes back into the queue and goes on where it was"
 
 submit storm || fail "$said"
@@ -211,6 +228,14 @@ wait_for 60 node_is_down || fail "the loss of the node is not seen"
 start_slurmd
 wait_for 90 at_work storm || fail "the tasks of a lost node do not come back: $(states storm)"
 pass "the tasks of a lost node come back"
+
+said=$(talus campaign cancel storm.yaml) || fail "campaign cancel: $said"
+[[ $said == '2 runs taken back from the queue'* ]] || fail "campaign cancel: $said"
+[[ $(states storm | sort -u) == 'interrupted - -' ]] || fail "campaign cancel: $(states storm)"
+submit storm || fail "$said"
+[[ $said == *': 2 runs'* ]] || fail "resubmission of 2: $said"
+wait_for 60 at_work storm || fail "storm: $(states storm)"
+pass "campaign cancel takes tasks back with their checkpoints written, and they are submitted again"
 
 scancel "$(states storm | awk '$3 != "-" {sub("_.*", "", $3); print $3; exit}')"
 wait_for 30 is_over storm || fail "cancelled tasks stay in the queue: $(states storm)"
