@@ -43,8 +43,8 @@ SELECTED = $(if $(TESTS),$(sort $(foreach word,$(TESTS),$(foreach test,$1,$(if $
 
 .DEFAULT_GOAL := all
 .PHONY: all lib programs deps quickstart check test asan ubsan widths valgrind coverage clang tidy format \
-	format-check symbols bench soak faults-long fuzz tables figures paper install clean distclean help \
-	$(EXPERIMENTS)
+	format-check symbols bench soak faults-long fuzz slurm-check tables figures paper install clean distclean \
+	help $(EXPERIMENTS)
 .SECONDARY:
 .DELETE_ON_ERROR:
 
@@ -263,6 +263,12 @@ fuzz:
 	+$(Q)$(call fuzzed,libfuzzer,clang,-fsanitize=fuzzer-no-link$(comma)address$(comma)undefined,-fsanitize=fuzzer)
 	+$(Q)$(call fuzzed,afl,afl-clang-fast,,-fsanitize=fuzzer)
 	$(Q)tests/fuzz/fuzz.sh $(BUILD) $(FUZZ_SECONDS) $(FUZZ_TARGETS)
+
+## slurm-check: campaigns on a real Slurm, started and stopped by the test
+slurm-check:
+	@scripts/deps build check slurm
+	$(Q)$(MAKE) $(SUB) all
+	$(Q)PATH=$(abspath $(BIN)):$$PATH tests/slurm/slurm.sh
 
 ## install: programs, library and headers below PREFIX (/usr/local)
 install: all

@@ -16,7 +16,8 @@
 int campaign_create(struct campaign *campaign, const struct experiment *experiment,
 	const struct campaign_options *options, struct error *err)
 {
-	*campaign = (struct campaign){.experiment = experiment, .options = *options};
+	*campaign = (struct campaign){
+		.experiment = experiment, .options = *options, .jobs_asked = options->jobs};
 	if (!campaign->options.jobs)
 		campaign->options.jobs = (int)sysconf(_SC_NPROCESSORS_ONLN);
 	if (experiment->timing || campaign->options.jobs < 1)
@@ -74,8 +75,8 @@ static int task_code(const struct task *task)
 
 int campaign_code(const struct campaign *campaign)
 {
-	size_t ended = campaign_count(campaign, TASK_COMPLETE) +
-				   campaign_count(campaign, TASK_FAILED) + campaign_count(campaign, TASK_LEFT);
+	size_t ended = campaign_count(campaign, TASK_COMPLETE) + campaign_count(campaign, TASK_FAILED) +
+				   campaign_count(campaign, TASK_QUEUED) + campaign_count(campaign, TASK_LEFT);
 	int worst = 0;
 
 	if (campaign->fault.code)
@@ -118,6 +119,21 @@ void campaign_look(struct campaign *campaign)
 		task_look(campaign, task);
 	}
 	campaign_calibrate(campaign);
+}
+
+int campaign_ask_queue(struct campaign *campaign, struct error *err)
+{
+	size_t runs = campaign->experiment->run_count;
+	struct queue_entry *entries = calloc(runs, sizeof *entries);
+	int result;
+
+	if (!entries)
+		return error_memory(err, runs * sizeof *entries);
+	result = executor_queue(campaign->experiment, entries, err);
+	for (size_t i = 0; result == 0 && i < runs; i++)
+		campaign->tasks[i].queue = entries[i];
+	free(entries);
+	return result;
 }
 
 double campaign_task_left(const struct campaign *campaign, const struct task *task)

@@ -11,6 +11,7 @@
 #include "campaign/reader.h"
 #include "campaign/sample.h"
 #include "campaign/setting.h"
+#include "campaign/slurm.h"
 
 /* What the entries of an experiment file fill. */
 struct form {
@@ -204,6 +205,11 @@ static int share_published(const struct reader *reader, struct experiment *exper
 	return 0;
 }
 
+static int read_slurm(const struct reader *reader, const struct node *node, void *target)
+{
+	return slurm_read(reader, node, &((struct form *)target)->experiment->slurm);
+}
+
 static const struct reader_key form_keys[] = {
 	{"title", read_title, "one line, above the tables"},
 	{"source", read_source, "what is reproduced, such as P1 Table 4"},
@@ -220,6 +226,7 @@ static const struct reader_key form_keys[] = {
 	{"observations", read_observations, "a list of files of measured values, see below"},
 	{"published", read_published,
 		"per name of a table, its published values: a list of rows, null where blank"},
+	{"slurm", read_slurm, "how a cluster runs the runs, see below and docs/slurm.md"},
 };
 
 void experiment_reference(struct text *out)
@@ -240,6 +247,7 @@ void experiment_reference(struct text *out)
 	reader_reference(out, "A table", table_keys, sizeof table_keys / sizeof *table_keys);
 	experiment_plots_reference(out);
 	experiment_observations_reference(out);
+	reader_reference(out, "The section slurm", slurm_keys, SLURM_KEYS);
 }
 
 static int read_form(const struct reader *reader, struct form *form)
@@ -332,7 +340,8 @@ int experiment_read(struct experiment *experiment, const char *path, const char 
 	struct reader reader = {path, err};
 	struct form form = {.experiment = experiment};
 
-	*experiment = (struct experiment){.title = "", .source = "", .repeat = 1};
+	*experiment = (struct experiment){
+		.title = "", .source = "", .repeat = 1, .slurm = {.partition = "", .grace = SLURM_GRACE}};
 	experiment->path = strdup(path);
 	experiment->root = calloc(1, sizeof *experiment->root);
 	if (!experiment->path || !experiment->root)
@@ -376,6 +385,7 @@ void experiment_clean(struct experiment *experiment)
 		node_clean(experiment->base_root);
 	free(experiment->base_root);
 	free(experiment->keys);
+	setting_list_clean(&experiment->slurm.directives);
 	setting_list_clean(&experiment->set);
 	setting_list_clean(&experiment->overrides);
 	if (experiment->root)

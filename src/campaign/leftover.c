@@ -17,7 +17,8 @@
 
 /* What a run writes into its folder, the lock last: as long as that is there, nobody else begins. */
 static const char *const patterns[] = {"run.h5", "run.previous.h5", "run.end-*.h5",
-	"run.damaged.h5", "run.previous.damaged.h5", "run.log", "status.yaml", "*.tmp", "config.[0-9]*.yaml", "config.yaml", "run.lock"};
+	"run.damaged.h5", "run.previous.damaged.h5", "run.log", "status.yaml", "*.tmp",
+	"config.[0-9]*.yaml", "config.yaml", "run.lock"};
 
 static bool is_ours(const char *name)
 {

@@ -33,13 +33,11 @@ static bool may_try_again(const struct campaign *campaign, const struct task *ta
 	return tries < campaign->options.retry;
 }
 
-/* Is a run that its files call failed, or whose files are damaged, to forget them? Damage behind a good
- * trailer shows only when the run reads its file, which ends the first try. */
-static bool may_begin_anew(const struct campaign *campaign, const struct task *task)
+/* Damage behind a good trailer shows only when the run reads its file, which ends the first try. */
+bool task_may_begin_anew(const struct campaign *campaign, const struct task *task)
 {
-	return campaign->options.retry &&
-		   (task->starts || task->report.state == RUN_STATE_FAILED ||
-			   task->report.state == RUN_STATE_DAMAGED);
+	return campaign->options.retry && (task->starts || task->report.state == RUN_STATE_FAILED ||
+										  task->report.state == RUN_STATE_DAMAGED);
 }
 
 void task_look(const struct campaign *campaign, struct task *task)
@@ -71,7 +69,7 @@ void task_look(const struct campaign *campaign, struct task *task)
 }
 
 /* Two campaigns may do this at the same moment: each writes under a name of its own. */
-static int write_config(const struct task *task, struct error *err)
+int task_write_config(const struct task *task, struct error *err)
 {
 	const char *folder = task->run->folder;
 	struct text config = {0}, path = {0}, final = {0};
@@ -159,13 +157,13 @@ int task_start(const struct campaign *campaign, struct task *task, const sigset_
 	char *arguments[ARGUMENTS_MAX] = {"talus", "run", "FILE", "-o", task->run->folder, "--quiet"};
 	int log = -1, count = 6, result = -1;
 
-	if (may_begin_anew(campaign, task))
+	if (task_may_begin_anew(campaign, task))
 		arguments[count++] = "--retry";
 	if (task_from(campaign, task)) {
 		arguments[count++] = "--continue-from";
 		arguments[count++] = (char *)task_from(campaign, task);
 	}
-	if (write_config(task, err) || file_path(&config, task->run->folder, "config.yaml", err) ||
+	if (task_write_config(task, err) || file_path(&config, task->run->folder, "config.yaml", err) ||
 		file_path(&path, task->run->folder, "run.log", err))
 		goto done;
 	log = file_open_log(text_string(&path));
@@ -265,4 +263,21 @@ bool task_reap(const struct campaign *campaign, struct task *task)
 		!task->timed_out && task->refusals++ < REFUSALS_MAX)
 		task->state = TASK_ELSEWHERE;
 	return true;
+}
+
+void task_blame_disk(struct campaign *campaign, struct task *task)
+{
+	enum { LEAST = 1 << 16 }; /* beside a checkpoint that may be larger than the last */
+	struct text path = {0};
+	struct error ignored = {0};
+	size_t size = 0;
+
+	if ((task->state != TASK_FAILED && task->state != TASK_WAITING) ||
+		(task->code != EX_IOERR && task->code != EX_CANTCREAT))
+		return;
+	if (!file_path(&path, task->run->folder, "run.h5", &ignored))
+		(void)file_size(text_string(&path), &size);
+	text_clean(&path);
+	if (!file_has_room(campaign->experiment->folder, 2 * size + LEAST, &campaign->fault))
+		task->state = TASK_INTERRUPTED;
 }

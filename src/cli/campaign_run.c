@@ -35,6 +35,8 @@ static const char *task_word(const struct task *task)
 	case TASK_RUNNING:
 	case TASK_ELSEWHERE:
 		return "running";
+	case TASK_QUEUED:
+		return "queued";
 	case TASK_LEFT:
 		return "left";
 	case TASK_WAITING:
@@ -167,13 +169,17 @@ static bool is_told(const struct task *task)
 static void tell_counts(const struct campaign *campaign, struct text *out)
 {
 	const struct experiment *experiment = campaign->experiment;
-	size_t ended = count_ended(campaign), failed = campaign_count(campaign, TASK_FAILED);
 	size_t runs = experiment->run_count - campaign_count(campaign, TASK_LEFT);
+	size_t failed = campaign_count(campaign, TASK_FAILED);
+	size_t queued = campaign_count(campaign, TASK_QUEUED);
+	size_t ended = count_ended(campaign) + queued;
 
 	text_addf(out, "%zu run%s in %s: %zu complete", runs, runs == 1 ? "" : "s", experiment->folder,
 		campaign_count(campaign, TASK_COMPLETE));
 	if (failed)
 		text_addf(out, ", %zu failed", failed);
+	if (queued)
+		text_addf(out, ", %zu in the queue", queued);
 	if (ended < runs)
 		text_addf(out, ", %zu unfinished", runs - ended);
 	text_add(out, "\n");
@@ -204,6 +210,13 @@ static int tell_result(const struct campaign *campaign)
 	return code ? code : printed;
 }
 
+static void tell_line(void *context, const char *line)
+{
+	(void)context;
+	(void)printf("%s\n", line);
+	(void)fflush(stdout);
+}
+
 static int execute(struct campaign *campaign, const struct executor *executor)
 {
 	struct progress progress = {isatty(STDERR_FILENO), clock_wall(), 0};
@@ -212,11 +225,31 @@ static int execute(struct campaign *campaign, const struct executor *executor)
 	int result;
 
 	campaign_work(campaign, &progress.done_began, &all);
-	campaign->watch = (struct campaign_watch){tell_ended, tell_tick, &progress};
+	campaign->watch = (struct campaign_watch){tell_ended, tell_tick, tell_line, &progress};
 	result = campaign_execute(campaign, executor, &err);
 	if (progress.terminal)
 		(void)fprintf(stderr, "\r\033[K");
 	return result ? command_fail(&err) : tell_result(campaign);
+}
+
+static void tell_aside(void *context, const char *line)
+{
+	(void)context;
+	(void)fprintf(stderr, "talus: %s\n", line);
+}
+
+/* What the executor would hand over, alone on stdout. */
+static int print_handover(struct campaign *campaign, const struct executor *executor)
+{
+	struct text out = {0};
+	struct error err = {0};
+
+	campaign->watch.told = tell_aside;
+	if (executor->plan(campaign, &out, &err)) {
+		text_clean(&out);
+		return command_fail(&err);
+	}
+	return command_print(&out);
 }
 
 /* What `run` would do with the run. */
@@ -228,6 +261,8 @@ void campaign_describe_plan(
 
 	if (task->state == TASK_COMPLETE)
 		text_add(out, "complete, nothing to do");
+	else if (task->queue.job[0])
+		text_add(out, "nothing to do: it is in the queue");
 	else if (task->state == TASK_FAILED)
 		text_addf(out, "%s, left as it is without --retry", run_state_name(report->state));
 	else if (task->state == TASK_ELSEWHERE)
@@ -247,6 +282,7 @@ void campaign_describe_plan(
 		text_addf(out, "resume at %g s of %g s", report->time, end);
 }
 
+/* What `run` would do with each run. */
 static int print_plan(const struct campaign *campaign)
 {
 	size_t runs = campaign->experiment->run_count;
@@ -279,13 +315,21 @@ static int run_campaign(const struct campaign_arguments *arguments,
 	int code;
 
 	if (!executor)
-		return command_usage("campaign", "--executor %s: there is only local", arguments->executor);
+		return command_usage(
+			"campaign", "--executor %s: there are local and slurm", arguments->executor);
+	if (executor->queue && (options->timeout > 0 || options->max_failures))
+		return command_usage("campaign",
+			"--executor %s takes no --%s: a queue has no eye on its runs%s", arguments->executor,
+			options->timeout > 0 ? "timeout" : "max-failures",
+			options->timeout > 0 ? "; its limit is `time` in the section `slurm:`" : "");
 	if (campaign_create(&campaign, experiment, options, &err) ||
 		(failed_only &&
 			campaign_select_failed(&campaign, arguments->names, arguments->name_count, &err)))
 		code = command_fail(&err);
+	else if (!arguments->dry_run)
+		code = execute(&campaign, executor);
 	else
-		code = arguments->dry_run ? print_plan(&campaign) : execute(&campaign, executor);
+		code = executor->plan ? print_handover(&campaign, executor) : print_plan(&campaign);
 	campaign_clean(&campaign);
 	return code;
 }
@@ -308,7 +352,8 @@ static int retry_main(
 
 #define OPTIONS_OF_POOL                                                                            \
 	"  -j, --jobs N          runs at a time; an experiment with `timing: true` makes it 1\n"       \
-	"                        (default: the number of processors)\n"                                \
+	"                        (default: the number of processors; slurm: the throttle of its "      \
+	"section)\n"                                                                                   \
 	"  -n, --dry-run         print what would be done and change nothing (default: off)\n"         \
 	"  -t, --timeout SPAN    stop a run after so much wall clock, such as 90 s or 2 h, with its\n" \
 	"                        checkpoint written (default: never)\n"                                \
@@ -316,7 +361,9 @@ static int retry_main(
 	"      --order ORDER     longest: the longest expected run first; given: as in the "           \
 	"experiment,\n"                                                                                \
 	"                        as those with `timing: true` always are (default: longest)\n"         \
-	"  -e, --executor NAME   how runs are executed: local (default: local)\n"
+	"  -e, --executor NAME   how runs are executed: local, as processes of this machine, or "      \
+	"slurm,\n"                                                                                     \
+	"                        as job arrays of a cluster, without -t and -m (default: local)\n"
 
 const struct campaign_action campaign_action_run = {
 	.name = "run",
@@ -331,8 +378,8 @@ const struct campaign_action campaign_action_run = {
 		"Ctrl-C stops all runs with their checkpoints written; the same command goes on from "
 		"there.\nA run that differs from another by a later time.end alone goes on from that "
 		"one.\n\n"
-		"exit: 0 all runs are complete, 1 one failed, 65 bad experiment, 75 stopped and "
-		"resumable\n",
+		"exit: 0 all runs are complete or in the queue, 1 one failed, 65 bad experiment,\n"
+		"69 Slurm is not there or refuses, 75 stopped and resumable\n",
 	.options = "jnrtmeO",
 	.main = run_main,
 };
@@ -345,9 +392,9 @@ const struct campaign_action campaign_action_retry = {
 		"example: talus campaign retry experiments/quickstart.yaml\n\n"
 		"RUN is a name as `status` prints it, the beginning of one, or digits of its hash.\n\n"
 		"options:\n" OPTIONS_OF_POOL "  -r, --retry N         start each anew up to N times "
-		"(default: 1)\n" CAMPAIGN_OPTIONS_OF_ALL
-		"exit: 0 these runs are complete, 1 one failed again, 65 bad experiment or no such run,\n"
-		"75 stopped and resumable\n",
+		"(default: 1)\n" CAMPAIGN_OPTIONS_OF_ALL "exit: 0 these runs are complete or in the queue, "
+		"1 one failed again, 65 bad experiment or\n"
+		"no such run, 69 Slurm is not there or refuses, 75 stopped and resumable\n",
 	.options = "jnrtmeO",
 	.names = true,
 	.main = retry_main,

@@ -232,8 +232,8 @@ int run_file_text(struct run_file *file, const char *name, struct text *out, str
 	return read_text(file, file->id, name, out, err);
 }
 
-int run_file_dataset_text(struct run_file *file, const char *path, const char *name,
-	struct text *out, struct error *err)
+int run_file_dataset_text(
+	struct run_file *file, const char *path, const char *name, struct text *out, struct error *err)
 {
 	hid_t id = H5Dopen2(file->id, path, H5P_DEFAULT);
 	htri_t there = id < 0 ? -1 : H5Aexists(id, name);

@@ -38,8 +38,8 @@ int run_file_scale_length(
 
 /* Text attribute `name` ("units", "long_name") of a dataset; nothing is added where it has none.
  * EX_DATAERR, EX_SOFTWARE. */
-int run_file_dataset_text(struct run_file *file, const char *path, const char *name,
-	struct text *out, struct error *err);
+int run_file_dataset_text(
+	struct run_file *file, const char *path, const char *name, struct text *out, struct error *err);
 
 /* The name of the scale that axis `axis` of a dataset has; nothing is added without one. */
 void run_file_scale_name(struct run_file *file, const char *path, int axis, struct text *out);

@@ -119,13 +119,12 @@ int measured_make(struct measured *measured, const struct layout *layout, struct
 
 		if (layout->places[i].row == LAYOUT_NOWHERE)
 			continue;
-		TRY(measured_open(
-			run, layout->what, &measured->missing, &measured->warnings, &file, err));
+		TRY(measured_open(run, layout->what, &measured->missing, &measured->warnings, &file, err));
 		if (!file)
 			continue;
 		for (size_t m = 0; m < measures && !err->code; m++)
-			(void)measure(measured, i, file, &layout->measures[m],
-				&measured->values[i * measures + m], err);
+			(void)measure(
+				measured, i, file, &layout->measures[m], &measured->values[i * measures + m], err);
 		provenance_add(&measured->provenance, file);
 		run_file_close(file);
 		if (err->code)

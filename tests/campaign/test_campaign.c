@@ -190,7 +190,7 @@ static void interrupt_ourselves(void *context, const struct campaign *campaign)
 static void the_first_interrupt_stops_the_runs_and_the_second_ends_the_wait(void **state)
 {
 	int interrupts = 0;
-	const struct campaign_watch watch = {NULL, interrupt_ourselves, &interrupts};
+	const struct campaign_watch watch = {.tick = interrupt_ourselves, .context = &interrupts};
 	struct experiment e;
 	struct campaign c = execute(&e,
 		"#!/bin/sh\n"
@@ -289,7 +289,7 @@ static void a_cancel_stops_this_campaign_and_no_later_one(void **state)
 								 "[ -e told ] || while :; do sleep 0.05; done\n"
 								 "exit 1\n";
 	bool cancelled = false;
-	const struct campaign_watch watch = {NULL, cancel_when_ready, &cancelled};
+	const struct campaign_watch watch = {.tick = cancel_when_ready, .context = &cancelled};
 	struct experiment e;
 	struct campaign c = execute(&e, script, &watch);
 

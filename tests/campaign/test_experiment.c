@@ -471,7 +471,7 @@ static void what_is_wrong_is_refused_with_its_place(void **state)
 		{"bse: base.yaml\n", "study.yaml:1:1: unknown key 'bse'; did you mean 'base'?"},
 		{"title: x\nzzzzzzzz: 1\n",
 			"study.yaml:2:1: unknown key 'zzzzzzzz'; known are: title, source, base, set, runs, "
-			"repeat, timing, tables, plots, observations, published"},
+			"repeat, timing, tables, plots, observations, published, slurm"},
 		{"base: base.yaml\nbase: base.yaml\n",
 			"study.yaml:2:1: duplicate key 'base'; it is already on line 1"},
 		{"title: x\n", "study.yaml:1:1: the experiment lacks its 'base' config"},

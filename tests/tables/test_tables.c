@@ -436,18 +436,18 @@ static void latex_and_json_survive_their_own_marks(void **state)
 	free(text);
 	text_clean(&missing);
 	text = print(&e, "json", &missing);
-	assert_non_null(strstr(text,
-		"  \"title\": \"t_1: Marks \\\\ ^ ~ # $ % & _ { } \\\"<\u00b0> (A|B)\",\n"
-		"  \"columns\": [\n"
-		"    {\"heads\": [\"profiles_at\"], \"label\": true,\n"
-		"     \"values\": [\"[0.1 s, 0.3 s]\"]},\n"
-		"    {\"heads\": [\"layers 4\", \"iterations\", \"ours\"], \"label\": false,\n"
-		"     \"values\": [9]},\n"
-		"    {\"heads\": [\"layers 4\", \"iterations\", \"A|B\"], \"label\": false,\n"
-		"     \"values\": [7]},\n"
-		"    {\"heads\": [\"layers 8\", \"iterations\"], \"label\": false,\n"
-		"     \"values\": [null],\n"
-		"     \"missing\": [true]}],\n"));
+	assert_non_null(
+		strstr(text, "  \"title\": \"t_1: Marks \\\\ ^ ~ # $ % & _ { } \\\"<\u00b0> (A|B)\",\n"
+					 "  \"columns\": [\n"
+					 "    {\"heads\": [\"profiles_at\"], \"label\": true,\n"
+					 "     \"values\": [\"[0.1 s, 0.3 s]\"]},\n"
+					 "    {\"heads\": [\"layers 4\", \"iterations\", \"ours\"], \"label\": false,\n"
+					 "     \"values\": [9]},\n"
+					 "    {\"heads\": [\"layers 4\", \"iterations\", \"A|B\"], \"label\": false,\n"
+					 "     \"values\": [7]},\n"
+					 "    {\"heads\": [\"layers 8\", \"iterations\"], \"label\": false,\n"
+					 "     \"values\": [null],\n"
+					 "     \"missing\": [true]}],\n"));
 	assert_non_null(strstr(text, "pending\"]\n}\n"));
 	free(text);
 	text_clean(&missing);
