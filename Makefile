@@ -34,6 +34,7 @@ PROGRAMS := $(BIN)/talus $(BIN)/talus-tables
 TEST_SOURCES := $(wildcard tests/*/test_*.c)
 TEST_PROGRAMS := $(TEST_SOURCES:%.c=$(BUILD)/%)
 CLI_CASES := $(wildcard tests/cli/*.sh)
+comma := ,
 BENCHES := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench/bench_*.c))
 EXPERIMENTS := $(patsubst experiments/%.yaml,%,$(wildcard experiments/*.yaml))
 C_FILES := $(wildcard src/*/*.c tests/*/*.c)
@@ -42,7 +43,8 @@ SELECTED = $(if $(TESTS),$(sort $(foreach word,$(TESTS),$(foreach test,$1,$(if $
 
 .DEFAULT_GOAL := all
 .PHONY: all lib programs deps quickstart check test asan ubsan widths valgrind coverage clang tidy format \
-	format-check symbols bench soak tables figures paper install clean distclean help $(EXPERIMENTS)
+	format-check symbols bench soak faults-long fuzz slurm-check tables figures paper install clean distclean \
+	help $(EXPERIMENTS)
 .SECONDARY:
 .DELETE_ON_ERROR:
 
@@ -94,6 +96,13 @@ $(BIN)/talus-tables: $(BUILD)/src/cli/main_talus_tables.o $(LIB)
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(LIB)
 	@echo "LD $@"
 	$(Q)$(CC) -fopenmp $(OPT) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(call pkg_config,--libs,cmocka) $(PKG_LIBS)
+
+# To be preloaded by tests; plain C, whatever the build is.
+$(BUILD)/tests/%.so: tests/%.c
+	@mkdir -p $(@D)
+	@echo "LD $@"
+	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O1 $(WARN) -fPIC -shared -o $@ $< -ldl
+$(BUILD)/tests/faults/test_allocations: | $(BUILD)/tests/faults/fail_alloc.so
 
 # Packages first, then everything that asks about them in a make of its own.
 
@@ -229,12 +238,37 @@ bench:
 		export TALUS_ROOT=$(CURDIR) PATH=$(abspath $(BIN)):$(abspath $(BUILD)/tests/bench):$$PATH && \
 		for bench in $(abspath $(BENCHES)) $(abspath $(wildcard tests/bench/*.sh)); do $$bench || exit; done
 
-## soak: 100 kills over a campaign, and the same bits at its end (SOAK=count)
-SOAK ?= 100
+## soak: 1,000 kills over a campaign, and the same bits at its end (SOAK=count); then crowds of commands
+SOAK ?= 1000
 soak:
 	@scripts/deps build check
 	$(Q)$(MAKE) $(SUB) all
-	$(Q)TALUS_ROOT=$(CURDIR) PATH=$(abspath $(BIN)):$$PATH tests/soak/soak.sh $(SOAK)
+	$(Q)export TALUS_ROOT=$(CURDIR) PATH=$(abspath $(BIN)):$$PATH; tests/soak/soak.sh $(SOAK) && \
+		tests/soak/crowd.sh 2 $$(($(SOAK) / 20)) && tests/soak/crowd.sh 8 $$(($(SOAK) / 20))
+
+## faults-long: every allocation of every command fails once (hours; `make check` tries some of each)
+faults-long:
+	@scripts/deps build check
+	$(Q)TALUS_EVERY_ALLOCATION=1 TEST_TIMEOUT=86400 $(MAKE) $(SUB) test TESTS=test_allocations
+
+FUZZ_SECONDS ?= 60
+FUZZ_TARGETS := config experiment run_file
+fuzzed = $(call variant,$1,lib,$3) CC=$2 OPT='-O1 -ffp-contract=off' WERROR= && for name in $(FUZZ_TARGETS); do \
+	$2 $(CFLAGS_ALL) $3 $4 -DTARGET=fuzz_$$name -o $(BUILD)/$1/fuzz_$$name tests/fuzz/fuzz.c \
+		$(BUILD)/$1/libtalus.a $(PKG_LIBS) || exit; done
+
+## fuzz: libFuzzer and AFL++ on configs, experiments and run files (FUZZ_SECONDS=60 for each)
+fuzz:
+	@scripts/deps build fuzz
+	+$(Q)$(call fuzzed,libfuzzer,clang,-fsanitize=fuzzer-no-link$(comma)address$(comma)undefined,-fsanitize=fuzzer)
+	+$(Q)$(call fuzzed,afl,afl-clang-fast,,-fsanitize=fuzzer)
+	$(Q)tests/fuzz/fuzz.sh $(BUILD) $(FUZZ_SECONDS) $(FUZZ_TARGETS)
+
+## slurm-check: campaigns on a real Slurm, started and stopped by the test
+slurm-check:
+	@scripts/deps build check slurm
+	$(Q)$(MAKE) $(SUB) all
+	$(Q)PATH=$(abspath $(BIN)):$$PATH tests/slurm/slurm.sh
 
 ## install: programs, library and headers below PREFIX (/usr/local)
 install: all

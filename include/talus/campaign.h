@@ -15,10 +15,18 @@ enum task_state {
 	TASK_WAITING,   /* for its turn */
 	TASK_RUNNING,   /* in a child of ours */
 	TASK_ELSEWHERE, /* another process works on it */
+	TASK_QUEUED,    /* in the queue of a cluster, which brings it to its end */
 	TASK_COMPLETE,
 	TASK_FAILED,
 	TASK_INTERRUPTED, /* the same command goes on with it */
 	TASK_LEFT,        /* not asked for */
+};
+
+/* What the queue of a cluster says of a run. */
+struct queue_entry {
+	char job[32];     /* as the cluster's commands take it: "12_3"; "": not in the queue */
+	char state[32];   /* "PENDING", "RUNNING", ... */
+	char reason[128]; /* why it waits: "Resources" */
 };
 
 /* A run on its way. */
@@ -37,6 +45,7 @@ struct task {
 	struct run_report report; /* as last read */
 	size_t before; /* the run of this campaign that this one goes on from; SIZE_MAX: none */
 	char *from;    /* folder of another run that it goes on from, owned; NULL: none */
+	struct queue_entry queue; /* as campaign_ask_queue was last told */
 };
 
 struct campaign_options {
@@ -56,6 +65,7 @@ struct campaign_watch {
 	/* a run is over, or waits to be tried again: its report says why */
 	void (*ended)(void *context, const struct campaign *campaign, const struct task *task);
 	void (*tick)(void *context, const struct campaign *campaign); /* about twice a second */
+	void (*told)(void *context, const char *line); /* what an executor says: a job's number */
 	void *context;
 };
 
@@ -67,16 +77,43 @@ struct campaign {
 	double scale;       /* CPU seconds of the runs that are complete, by those that were expected */
 	bool stopping;      /* a signal or `campaign_cancel` asked for it */
 	bool gave_up;       /* max_failures runs have failed */
+	struct error
+		fault;      /* of the disk or of memory: nothing more is started; code 0: there was none */
+	int jobs_asked; /* options.jobs before it got its default */
 };
 
 /* How runs are executed; a row of the table in executor.c. */
 struct executor {
 	const char *name;
+
+	/* Bring every task to its end, or into a queue that does so. */
 	int (*execute)(struct campaign *campaign, struct error *err);
+
+	/* Add what execute would hand over, such as a batch script, to `out`, and change nothing; NULL:
+	 * the states of the tasks say it all. */
+	int (*plan)(struct campaign *campaign, struct text *out, struct error *err);
+
+	/* Fill entries[experiment->run_count], all zeros before, for runs that are in the queue. Silent
+	 * and quick for an experiment that was never handed over. NULL: there is no queue. */
+	int (*queue)(
+		const struct experiment *experiment, struct queue_entry *entries, struct error *err);
+
+	/* Take the runs with chosen[i] (NULL: all) back from the queue, and count them; those that compute
+	 * write their checkpoints and stop. NULL: there is no queue. */
+	int (*cancel)(
+		const struct experiment *experiment, const bool *chosen, size_t *count, struct error *err);
 };
 
 /* NULL if there is none of that name. */
 const struct executor *executor_find(const char *name);
+
+/* Ask the queues of all executors: see struct executor. EX_UNAVAILABLE. */
+int executor_queue(
+	const struct experiment *experiment, struct queue_entry *entries, struct error *err);
+
+/* Take all runs back from the queues of all executors, and count them: see struct executor.
+ * EX_UNAVAILABLE; EX_INTERRUPTED: somebody is handing over runs just now. */
+int executor_cancel(const struct experiment *experiment, size_t *count, struct error *err);
 
 /* Look at every run: what is complete or failed, what is to be done. Changes nothing on disk. Clean
  * in every case. */
@@ -94,8 +131,9 @@ int campaign_select_failed(
 int campaign_find_run(
 	const struct experiment *experiment, const char *name, size_t *index, struct error *err);
 
-/* Bring every run to its end. Failed runs do not stop the others, up to max_failures. A run that differs
- * from another only by a later time.end goes on from that one. SIGINT, SIGTERM, SIGHUP and SIGUSR1
+/* Bring every run to its end. Failed runs do not stop the others, up to max_failures; a disk that can
+ * hold no more does, see `fault`. A run that differs from another only by a later time.end goes on from
+ * that one. SIGINT, SIGTERM, SIGHUP and SIGUSR1
  * stop the children, whose checkpoints are waited for; a second SIGINT ends the wait. Returns 0 also
  * when runs failed: see the tasks and campaign_code. EX_CANTCREAT, EX_IOERR, EX_SOFTWARE. */
 int campaign_execute(struct campaign *campaign, const struct executor *executor, struct error *err);
@@ -103,7 +141,12 @@ int campaign_execute(struct campaign *campaign, const struct executor *executor,
 /* Look again at the runs that are not complete, as somebody who works on none of them. */
 void campaign_look(struct campaign *campaign);
 
-/* The exit code of the campaign: EX_INTERRUPTED beats EX_FAILED beats 0; one that gave up has failed. */
+/* Ask the queues of all executors what they know of the tasks: see executor_queue. */
+int campaign_ask_queue(struct campaign *campaign, struct error *err);
+
+/* The exit code of the campaign: that of the fault beats EX_INTERRUPTED beats EX_IOERR and EX_CANTCREAT
+ * (of one run's folder) beats EX_DATAERR (a run file) beats EX_FAILED beats 0; one that gave up has
+ * failed. A run in a queue needs nobody to go on with it. */
 int campaign_code(const struct campaign *campaign);
 
 size_t campaign_count(const struct campaign *campaign, enum task_state state);

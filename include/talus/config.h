@@ -34,11 +34,12 @@ enum interface_kind { INTERFACE_BACKWARD, INTERFACE_MEAN };
 enum switch_kind { SWITCH_ON, SWITCH_OFF };
 enum time_scheme_kind { TIME_SCHEME_TR_BDF2, TIME_SCHEME_SEMI_IMPLICIT };
 
-/* A short list of numbers, kept inside the config so that a config is a plain value. */
+/* A short list of numbers. A config is a plain value: the numbers are never changed and never freed. */
 struct real_list {
 	int count;
-	double values[512];
+	const double *values; /* [count] */
 };
+enum { REAL_LIST_MAX = 512 };
 
 /* Keys that the model does not have hold their defaults. */
 struct config {

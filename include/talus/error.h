@@ -34,7 +34,7 @@ int error_context(struct error *err, const char *format, ...) __attribute__((for
 /* Out of memory, as every allocation reports it: code EX_SOFTWARE. Return -1. */
 int error_memory(struct error *err, size_t bytes);
 
-/* Write "file:line:column: text" to `buffer` (always terminated) and return it. */
+/* Write "file:line:column: text" to `buffer` (always terminated) in one line and return it. */
 char *error_format(const struct error *err, char *buffer, size_t size);
 
 /* Leave the calling function with -1 when `call` does not return 0. */

@@ -105,6 +105,16 @@ struct experiment_plot {
 	size_t panel_count;
 };
 
+/* How a cluster runs the tasks; what is empty or 0 is left to the cluster. */
+struct experiment_slurm {
+	const char *partition;          /* "" */
+	long time;                      /* limit of a task, s */
+	int grace;                      /* how long before the limit a run is asked to stop, s */
+	char memory[24];                /* of a task, as Slurm writes it: "4G" */
+	int throttle;                   /* tasks at a time */
+	struct setting_list directives; /* more options of sbatch; one without a value is "true" */
+};
+
 struct experiment {
 	char *path;        /* of its file, as given */
 	char *folder;      /* that holds the run folders */
@@ -120,6 +130,7 @@ struct experiment {
 	size_t observation_count;
 	struct experiment_plot *plots; /* [plot_count] */
 	size_t plot_count;
+	struct experiment_slurm slurm;
 
 	char *base; /* path of the base config, and what it says */
 	struct node *base_root;

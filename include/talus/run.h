@@ -50,6 +50,8 @@ struct run_report {
 	double cpu_seconds; /* so far, all attempts */
 	int attempts;
 	int failures;      /* attempts that failed, as far as is known */
+	bool blocked;      /* damaged by what lies in the place of a folder or file: not for --retry */
+	bool unknown;      /* memory ran out: nothing here is to be relied on */
 	char reason[1024]; /* why it failed or stopped, "" if it did not */
 };
 

@@ -43,6 +43,9 @@ char *text_excerpt(const char *string, char *buffer, size_t size);
 /* Bytes of the UTF-8 character at `start`, 0 if there is none (overlong, surrogate, cut short). */
 size_t text_character_size(const char *start);
 
+/* `string` as one word of a shell, quoted where it has to be. */
+void text_add_word(struct text *text, const char *string);
+
 /* Edit distance (insert, delete, substitute, swap neighbours), for "did you mean". Strings longer
  * than 63 bytes count as infinitely far apart. */
 int text_distance(const char *a, const char *b);

@@ -68,5 +68,9 @@ char *error_format(const struct error *err, char *buffer, size_t size)
 		(void)snprintf(buffer, size, "%s: %s", err->file, err->text);
 	else
 		(void)snprintf(buffer, size, "%s:%d:%d: %s", err->file, err->line, err->column, err->text);
+	/* names of files and texts of strangers do not speak to the terminal */
+	for (char *c = buffer; *c; c++)
+		if ((unsigned char)*c < ' ' || *c == 0x7F)
+			*c = '?';
 	return buffer;
 }

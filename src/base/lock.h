@@ -17,6 +17,10 @@ int lock_take(struct lock *lock, const char *path, struct error *err);
 
 void lock_release(struct lock *lock);
 
+/* Whether `path` still names the file whose lock is held: not where somebody removed or replaced it, so
+ * that another process could take a lock of its own. */
+bool lock_is_named(const struct lock *lock, const char *path);
+
 /* Whether some process holds the lock of `path`. Never takes it, never makes the file. */
 bool lock_is_held(const char *path);
 

@@ -58,6 +58,23 @@ void text_addf(struct text *text, const char *format, ...)
 	text->length += (size_t)count;
 }
 
+void text_add_word(struct text *text, const char *string)
+{
+	const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-=,:@%";
+
+	if (*string && !string[strspn(string, plain)]) {
+		text_add(text, string);
+		return;
+	}
+	text_add(text, "'");
+	for (; *string; string++)
+		if (*string == '\'')
+			text_add(text, "'\\''");
+		else
+			text_add_bytes(text, string, 1);
+	text_add(text, "'");
+}
+
 const char *text_string(const struct text *text)
 {
 	return text->data ? text->data : "";

@@ -67,9 +67,18 @@ static int add_folder(struct list *list, const char *folder, const char *name, s
 		goto done;
 	}
 	if (!file_exists(text_string(&file)) ||
-		config_read(&config, text_string(&file), NULL, 0, &unreadable))
+		config_read(&config, text_string(&file), NULL, 0, &unreadable)) {
+		if (unreadable.code == EX_SOFTWARE) {
+			*err = unreadable;
+			result = -1;
+		}
 		goto done;
+	}
 	run_report_read(text_string(&path), &report);
+	if (report.unknown) {
+		result = error_memory(err, sizeof report);
+		goto done;
+	}
 	if (report.state != RUN_STATE_COMPLETE && report.state != RUN_STATE_INTERRUPTED)
 		goto done;
 	result = add(list, &config, (struct candidate){.task = SIZE_MAX}, err);

@@ -16,7 +16,8 @@
 int campaign_create(struct campaign *campaign, const struct experiment *experiment,
 	const struct campaign_options *options, struct error *err)
 {
-	*campaign = (struct campaign){.experiment = experiment, .options = *options};
+	*campaign = (struct campaign){
+		.experiment = experiment, .options = *options, .jobs_asked = options->jobs};
 	if (!campaign->options.jobs)
 		campaign->options.jobs = (int)sysconf(_SC_NPROCESSORS_ONLN);
 	if (experiment->timing || campaign->options.jobs < 1)
@@ -31,7 +32,10 @@ int campaign_create(struct campaign *campaign, const struct experiment *experime
 		task->cost = model_cost(&task->run->config);
 		task->before = SIZE_MAX;
 		task_look(campaign, task);
-		task->failed_before = task->report.state == RUN_STATE_FAILED;
+		if (task->report.unknown)
+			return error_memory(err, sizeof *task);
+		task->failed_before =
+			task->report.state == RUN_STATE_FAILED || task->report.state == RUN_STATE_DAMAGED;
 		task->skipped = task->state == TASK_COMPLETE || task->state == TASK_FAILED;
 	}
 	campaign_calibrate(campaign);
@@ -61,17 +65,32 @@ size_t campaign_count(const struct campaign *campaign, enum task_state state)
 	return count;
 }
 
+/* Of a run that failed: what is wrong with its files has a code of its own. */
+static int task_code(const struct task *task)
+{
+	bool files = task->code == EX_IOERR || task->code == EX_CANTCREAT || task->code == EX_DATAERR;
+
+	return files ? task->code : EX_FAILED;
+}
+
 int campaign_code(const struct campaign *campaign)
 {
-	size_t failed = campaign_count(campaign, TASK_FAILED);
-	size_t ended =
-		campaign_count(campaign, TASK_COMPLETE) + failed + campaign_count(campaign, TASK_LEFT);
+	size_t ended = campaign_count(campaign, TASK_COMPLETE) + campaign_count(campaign, TASK_FAILED) +
+				   campaign_count(campaign, TASK_QUEUED) + campaign_count(campaign, TASK_LEFT);
+	int worst = 0;
 
+	if (campaign->fault.code)
+		return campaign->fault.code;
 	if (campaign->gave_up && !campaign->stopping)
 		return EX_FAILED;
 	if (ended < campaign->experiment->run_count)
 		return EX_INTERRUPTED;
-	return failed ? EX_FAILED : 0;
+	for (size_t i = 0; i < campaign->experiment->run_count; i++) {
+		int code = campaign->tasks[i].state == TASK_FAILED ? task_code(&campaign->tasks[i]) : 0;
+
+		worst = code > worst ? code : worst;
+	}
+	return worst;
 }
 
 void campaign_calibrate(struct campaign *campaign)
@@ -100,6 +119,21 @@ void campaign_look(struct campaign *campaign)
 		task_look(campaign, task);
 	}
 	campaign_calibrate(campaign);
+}
+
+int campaign_ask_queue(struct campaign *campaign, struct error *err)
+{
+	size_t runs = campaign->experiment->run_count;
+	struct queue_entry *entries = calloc(runs, sizeof *entries);
+	int result;
+
+	if (!entries)
+		return error_memory(err, runs * sizeof *entries);
+	result = executor_queue(campaign->experiment, entries, err);
+	for (size_t i = 0; result == 0 && i < runs; i++)
+		campaign->tasks[i].queue = entries[i];
+	free(entries);
+	return result;
 }
 
 double campaign_task_left(const struct campaign *campaign, const struct task *task)

@@ -117,6 +117,8 @@ int experiment_has(const struct experiment *experiment, const struct experiment_
 		mine.length = other.length = 0;
 		result =
 			config_value(&run->config, key, &mine, err) || config_value(&config, key, &other, err);
+		if (!result && (mine.failed || other.failed))
+			result = error_memory(err, mine.length + other.length);
 		*has = !result && !strcmp(text_string(&mine), text_string(&other));
 	}
 	text_clean(&mine);

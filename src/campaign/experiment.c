@@ -1,10 +1,9 @@
 #include "talus/experiment.h"
 
-#include <errno.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "campaign/expand.h"
 #include "campaign/experiment_observations.h"
 #include "campaign/experiment_plots.h"
@@ -12,6 +11,7 @@
 #include "campaign/reader.h"
 #include "campaign/sample.h"
 #include "campaign/setting.h"
+#include "campaign/slurm.h"
 
 /* What the entries of an experiment file fill. */
 struct form {
@@ -205,6 +205,11 @@ static int share_published(const struct reader *reader, struct experiment *exper
 	return 0;
 }
 
+static int read_slurm(const struct reader *reader, const struct node *node, void *target)
+{
+	return slurm_read(reader, node, &((struct form *)target)->experiment->slurm);
+}
+
 static const struct reader_key form_keys[] = {
 	{"title", read_title, "one line, above the tables"},
 	{"source", read_source, "what is reproduced, such as P1 Table 4"},
@@ -221,6 +226,7 @@ static const struct reader_key form_keys[] = {
 	{"observations", read_observations, "a list of files of measured values, see below"},
 	{"published", read_published,
 		"per name of a table, its published values: a list of rows, null where blank"},
+	{"slurm", read_slurm, "how a cluster runs the runs, see below and docs/slurm.md"},
 };
 
 void experiment_reference(struct text *out)
@@ -241,6 +247,7 @@ void experiment_reference(struct text *out)
 	reader_reference(out, "A table", table_keys, sizeof table_keys / sizeof *table_keys);
 	experiment_plots_reference(out);
 	experiment_observations_reference(out);
+	reader_reference(out, "The section slurm", slurm_keys, SLURM_KEYS);
 }
 
 static int read_form(const struct reader *reader, struct form *form)
@@ -263,11 +270,12 @@ static int read_form(const struct reader *reader, struct form *form)
 	return share_published(reader, experiment);
 }
 
-/* The base config; its path is relative to the experiment's. */
+/* The base config; its path is relative to the experiment's. One that cannot be read is told with the place
+ * where the experiment names it. */
 static int load_base(
 	const struct reader *reader, struct experiment *experiment, const struct node *base)
 {
-	FILE *file;
+	struct error why = {0};
 
 	experiment->base = reader_file(reader, base->text);
 	if (!experiment->base)
@@ -275,11 +283,12 @@ static int load_base(
 	experiment->base_root = calloc(1, sizeof *experiment->base_root);
 	if (!experiment->base_root)
 		return error_memory(reader->err, sizeof *experiment->base_root);
-	file = fopen(experiment->base, "re");
-	if (!file) /* told with the place where the experiment names it */
-		return reader_fail(reader, base, "cannot read %s: %s", experiment->base, strerror(errno));
-	(void)fclose(file);
-	return yaml_load(experiment->base_root, experiment->base, reader->err);
+	if (!yaml_load(experiment->base_root, experiment->base, &why))
+		return 0;
+	if (why.code == EX_DATAERR && !why.line)
+		return reader_fail(reader, base, "%s %s", experiment->base, why.text);
+	*reader->err = why;
+	return -1;
 }
 
 static int keep_overrides(
@@ -304,19 +313,25 @@ static int keep_overrides(
 	return 0;
 }
 
-/* results/<stem of the file> unless the caller names a folder. */
+/* results/<stem of the file> unless the caller names a folder. No name begins with '-', which other
+ * programs would take for an option. */
 static int name_folder(struct experiment *experiment, const char *folder, struct error *err)
 {
-	const char *slash = strrchr(experiment->path, '/');
-	const char *name = slash ? slash + 1 : experiment->path;
-	const char *dot = strrchr(name, '.');
-	int stem = dot && dot > name ? (int)(dot - name) : (int)strlen(name);
+	struct text name = {0};
+	bool right = true;
 
 	if (folder)
-		experiment->folder = strdup(folder);
-	else if (asprintf(&experiment->folder, "results/%.*s", stem, name) < 0)
-		experiment->folder = NULL;
-	return experiment->folder ? 0 : error_memory(err, strlen(name));
+		text_addf(&name, "%s%s", *folder == '-' ? "./" : "", folder);
+	else {
+		text_add(&name, "results/");
+		right = file_stem(experiment->path, &name);
+	}
+	experiment->folder = name.data;
+	if (name.failed)
+		return error_memory(err, name.length);
+	return right ? 0
+				 : error_at(err, EX_DATAERR, experiment->path, 0, 0,
+					   "its name is none for a folder of results; name one with -o");
 }
 
 int experiment_read(struct experiment *experiment, const char *path, const char *folder,
@@ -325,7 +340,8 @@ int experiment_read(struct experiment *experiment, const char *path, const char 
 	struct reader reader = {path, err};
 	struct form form = {.experiment = experiment};
 
-	*experiment = (struct experiment){.title = "", .source = "", .repeat = 1};
+	*experiment = (struct experiment){
+		.title = "", .source = "", .repeat = 1, .slurm = {.partition = "", .grace = SLURM_GRACE}};
 	experiment->path = strdup(path);
 	experiment->root = calloc(1, sizeof *experiment->root);
 	if (!experiment->path || !experiment->root)
@@ -369,6 +385,7 @@ void experiment_clean(struct experiment *experiment)
 		node_clean(experiment->base_root);
 	free(experiment->base_root);
 	free(experiment->keys);
+	setting_list_clean(&experiment->slurm.directives);
 	setting_list_clean(&experiment->set);
 	setting_list_clean(&experiment->overrides);
 	if (experiment->root)

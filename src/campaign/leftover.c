@@ -16,8 +16,9 @@
 #include "campaign/expand.h"
 
 /* What a run writes into its folder, the lock last: as long as that is there, nobody else begins. */
-static const char *const patterns[] = {"run.h5", "run.previous.h5", "run.end-*.h5", "run.log",
-	"status.yaml", "*.tmp", "config.[0-9]*.yaml", "config.yaml", "run.lock"};
+static const char *const patterns[] = {"run.h5", "run.previous.h5", "run.end-*.h5",
+	"run.damaged.h5", "run.previous.damaged.h5", "run.log", "status.yaml", "*.tmp",
+	"config.[0-9]*.yaml", "config.yaml", "run.lock"};
 
 static bool is_ours(const char *name)
 {
@@ -99,6 +100,8 @@ static int is_beginning(const struct experiment *experiments, size_t count,
 			if (strcmp(hash, other) != 0)
 				continue;
 			run_report_read(run->folder, &report);
+			if (report.unknown)
+				return error_memory(err, sizeof report);
 			*is = report.state != RUN_STATE_COMPLETE;
 		}
 	return 0;

@@ -10,6 +10,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "campaign/order.h"
 #include "campaign/task.h"
 
 struct pool {
@@ -41,6 +42,12 @@ static bool is_over(const struct task *task)
 		   task->state == TASK_INTERRUPTED;
 }
 
+/* No more runs are to be started. */
+static bool is_stopped(const struct campaign *campaign)
+{
+	return campaign->stopping || campaign->gave_up || campaign->fault.code;
+}
+
 static void reap(struct pool *pool)
 {
 	for (size_t i = 0; i < task_count(pool); i++) {
@@ -48,6 +55,11 @@ static void reap(struct pool *pool)
 
 		if (task->state != TASK_RUNNING || !task_reap(pool->campaign, task))
 			continue;
+		if (task->report.unknown) {
+			error_memory(&pool->campaign->fault, sizeof task->report);
+			task->state = TASK_INTERRUPTED;
+		}
+		task_blame_disk(pool->campaign, task);
 		if (task->state == TASK_COMPLETE)
 			campaign_calibrate(pool->campaign);
 		if (is_over(task) || task->state == TASK_WAITING)
@@ -89,6 +101,7 @@ static void fail_start(struct pool *pool, struct task *task, struct error *err)
 	task->code = err->code;
 	(void)error_format(err, task->report.reason, sizeof task->report.reason);
 	*err = (struct error){0};
+	task_blame_disk(pool->campaign, task);
 	tell_end(pool, task);
 }
 
@@ -135,7 +148,7 @@ static void start(struct pool *pool, struct error *err)
 {
 	const struct campaign *campaign = pool->campaign;
 
-	while (!campaign->stopping && !campaign->gave_up && !err->code &&
+	while (!is_stopped(campaign) && !err->code &&
 		   campaign_count(campaign, TASK_RUNNING) < (size_t)campaign->options.jobs &&
 		   start_next(pool, err))
 		;
@@ -205,51 +218,8 @@ static bool is_work_left(const struct pool *pool, const struct error *err)
 
 	if (campaign_count(campaign, TASK_RUNNING))
 		return true;
-	return !campaign->stopping && !campaign->gave_up && !err->code &&
+	return !is_stopped(campaign) && !err->code &&
 		   (campaign_count(campaign, TASK_WAITING) || campaign_count(campaign, TASK_ELSEWHERE));
-}
-
-/* A task by what is left of it and of all that waits for it. */
-struct turn {
-	struct task *task;
-	double left;
-};
-
-/* The longest expected first, so that none is left alone at the end; of equals, the first. */
-static int compare_turns(const void *a, const void *b)
-{
-	const struct turn *x = a, *y = b;
-
-	if (x->left != y->left)
-		return x->left < y->left ? 1 : -1;
-	return (x->task > y->task) - (x->task < y->task);
-}
-
-static int make_order(struct pool *pool, struct error *err)
-{
-	struct campaign *campaign = pool->campaign;
-	size_t count = task_count(pool);
-	struct turn *turns = calloc(count, sizeof *turns);
-
-	pool->order = calloc(count, sizeof(struct task *));
-	if (!pool->order || !turns) {
-		free(turns);
-		return error_memory(err, count * sizeof *turns);
-	}
-	for (size_t i = 0; i < count; i++)
-		turns[i].task = &campaign->tasks[i];
-	for (size_t i = 0; i < count; i++) {
-		double left = campaign_task_left(campaign, &campaign->tasks[i]);
-
-		for (size_t k = i; k != SIZE_MAX; k = campaign->tasks[k].before)
-			turns[k].left = left > turns[k].left ? left : turns[k].left;
-	}
-	if (!campaign->options.in_order && !campaign->experiment->timing)
-		qsort(turns, count, sizeof *turns, compare_turns);
-	for (size_t i = 0; i < count; i++)
-		pool->order[i] = turns[i].task;
-	free(turns);
-	return 0;
 }
 
 static void pool_clean(struct pool *pool)
@@ -273,7 +243,9 @@ static int pool_init(struct pool *pool, struct campaign *campaign, struct error 
 		TRY(file_path(&pool->timing, campaign->experiment->folder, "timing.lock", err));
 	TRY(file_path(&pool->cancel, campaign->experiment->folder, CAMPAIGN_CANCEL, err));
 	(void)stat(text_string(&pool->cancel), &pool->cancelled);
-	TRY(make_order(pool, err));
+	pool->order = campaign_order(campaign, err);
+	if (!pool->order)
+		return -1;
 	if (sigprocmask(SIG_BLOCK, &pool->signals, &pool->before) != 0)
 		return error_set(err, EX_SOFTWARE, "cannot block signals: %s", strerror(errno));
 	return 0;

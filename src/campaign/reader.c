@@ -80,6 +80,13 @@ int reader_text(const struct reader *reader, const struct node *node, const char
 {
 	if (node->kind != NODE_SCALAR || !node->text[0])
 		return reader_fail(reader, node, "one text is wanted here");
+	for (size_t i = strlen(node->text); i > 1 && strchr(" \t\n", node->text[i - 1]); i--)
+		node->text[i - 1] = '\0';
+	for (char *c = node->text; *c; c++)
+		if (*c == '\n' || *c == '\t')
+			*c = ' ';
+		else if ((unsigned char)*c < ' ' || *c == 0x7F)
+			return reader_fail(reader, node, "a control character does not belong here");
 	*out = node->text;
 	return 0;
 }
@@ -177,13 +184,26 @@ static int check_key(const struct reader *reader, const struct leaf_list *list, 
 	return 0;
 }
 
+/* A value, a mapping that says how values are made, or a list of values or of lists of them (several values
+ * of a key that is a list itself). */
+static int check_value(const struct reader *reader, const struct node *node, int depth)
+{
+	if (node->kind == NODE_MAPPING && !depth)
+		return 0;
+	if (node->kind == NODE_MAPPING || (node->kind == NODE_SEQUENCE && depth == 2))
+		return reader_fail(reader, node, "a value is wanted here, not %s", node_kind_name(node));
+	for (size_t i = 0; i < node->count; i++)
+		TRY(check_value(reader, &node->items[i], depth + 1));
+	return 0;
+}
+
 /* Takes `key` over. */
 static int leaf_add(
 	const struct reader *reader, struct leaf_list *list, char *key, const struct node *node)
 {
 	struct leaf *items;
 
-	if (check_key(reader, list, key, node)) {
+	if (check_key(reader, list, key, node) || check_value(reader, node, 0)) {
 		free(key);
 		return -1;
 	}

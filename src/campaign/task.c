@@ -14,6 +14,7 @@
 #include "base/file.h"
 
 enum {
+	ARGUMENTS_MAX = 10,
 	REFUSALS_MAX = 2,
 	GRACE = 30 /* s, for the checkpoint of a run whose time is over */
 };
@@ -25,15 +26,24 @@ static bool may_try_again(const struct campaign *campaign, const struct task *ta
 	int failures = task->report.failures > 0 ? task->report.failures : 1;
 	int tries = task->starts - !task->failed_before;
 
+	if (!campaign->options.retry)
+		return false;
 	if (task->report.state == RUN_STATE_FAILED && !campaign->options.anew)
 		return failures <= campaign->options.retry;
 	return tries < campaign->options.retry;
 }
 
+/* Damage behind a good trailer shows only when the run reads its file, which ends the first try. */
+bool task_may_begin_anew(const struct campaign *campaign, const struct task *task)
+{
+	return campaign->options.retry && (task->starts || task->report.state == RUN_STATE_FAILED ||
+										  task->report.state == RUN_STATE_DAMAGED);
+}
+
 void task_look(const struct campaign *campaign, struct task *task)
 {
 	run_report_read(task->run->folder, &task->report);
-	if (task->state != TASK_WAITING && task->state != TASK_ELSEWHERE)
+	if (task->report.unknown || (task->state != TASK_WAITING && task->state != TASK_ELSEWHERE))
 		return;
 	switch (task->report.state) {
 	case RUN_STATE_RUNNING:
@@ -46,16 +56,20 @@ void task_look(const struct campaign *campaign, struct task *task)
 	case RUN_STATE_FAILED:
 		task->state = may_try_again(campaign, task) ? TASK_WAITING : TASK_FAILED;
 		break;
+	case RUN_STATE_DAMAGED: /* what is not a matter of the run's files it tells itself */
+		task->state =
+			task->report.blocked || may_try_again(campaign, task) ? TASK_WAITING : TASK_FAILED;
+		task->code = EX_DATAERR;
+		break;
 	case RUN_STATE_PENDING:
 	case RUN_STATE_INTERRUPTED:
-	case RUN_STATE_DAMAGED:
 		task->state = TASK_WAITING;
 		break;
 	}
 }
 
 /* Two campaigns may do this at the same moment: each writes under a name of its own. */
-static int write_config(const struct task *task, struct error *err)
+int task_write_config(const struct task *task, struct error *err)
 {
 	const char *folder = task->run->folder;
 	struct text config = {0}, path = {0}, final = {0};
@@ -87,7 +101,7 @@ done:
 }
 
 /* What the child does between fork and exec. Never returns. */
-static void become_run(const struct campaign *campaign, char *const *arguments, const char *log,
+static void become_run(const struct campaign *campaign, char *const *arguments, int log,
 	const sigset_t *mask, const struct lock *timing, pid_t parent)
 {
 	const char *program = campaign->options.program ? campaign->options.program : "/proc/self/exe";
@@ -103,11 +117,8 @@ static void become_run(const struct campaign *campaign, char *const *arguments, 
 	fd = open("/dev/null", O_RDONLY);
 	if (fd >= 0)
 		(void)dup2(fd, STDIN_FILENO);
-	fd = open(log, O_WRONLY | O_CREAT | O_APPEND, 0666);
-	if (fd < 0 || dup2(fd, STDOUT_FILENO) < 0 || dup2(fd, STDERR_FILENO) < 0)
+	if (dup2(log, STDOUT_FILENO) < 0 || dup2(log, STDERR_FILENO) < 0)
 		_exit(EX_CANTCREAT);
-	if (fd > STDERR_FILENO)
-		(void)close(fd);
 	(void)sigprocmask(SIG_SETMASK, mask, NULL);
 	(void)execv(program, arguments);
 	(void)dprintf(STDERR_FILENO, "talus: cannot start %s: %s\n", program, strerror(errno));
@@ -126,35 +137,48 @@ const char *task_from(const struct campaign *campaign, const struct task *task)
 	return task->from;
 }
 
+/* Not fork, which takes its time to copy the tables of all our memory: become_run changes none of it. */
+static pid_t start_child(const struct campaign *campaign, char *const *arguments, int log,
+	const sigset_t *mask, const struct lock *timing)
+{
+	pid_t parent = getpid(), pid;
+
+	pid = vfork(); /* NOLINT(clang-analyzer-security.insecureAPI.vfork) */
+	if (pid == 0)
+		/* NOLINTNEXTLINE(clang-analyzer-unix.Vfork): it makes system calls, and never returns */
+		become_run(campaign, arguments, log, mask, timing, parent);
+	return pid;
+}
+
 int task_start(const struct campaign *campaign, struct task *task, const sigset_t *mask,
 	const struct lock *timing, struct error *err)
 {
-	struct text config = {0}, log = {0};
-	pid_t parent = getpid();
-	int result = -1;
+	struct text config = {0}, path = {0};
+	char *arguments[ARGUMENTS_MAX] = {"talus", "run", "FILE", "-o", task->run->folder, "--quiet"};
+	int log = -1, count = 6, result = -1;
 
-	if (write_config(task, err) || file_path(&config, task->run->folder, "config.yaml", err) ||
-		file_path(&log, task->run->folder, "run.log", err))
+	if (task_may_begin_anew(campaign, task))
+		arguments[count++] = "--retry";
+	if (task_from(campaign, task)) {
+		arguments[count++] = "--continue-from";
+		arguments[count++] = (char *)task_from(campaign, task);
+	}
+	if (task_write_config(task, err) || file_path(&config, task->run->folder, "config.yaml", err) ||
+		file_path(&path, task->run->folder, "run.log", err))
 		goto done;
+	log = file_open_log(text_string(&path));
+	if (log < 0) {
+		error_at(
+			err, EX_CANTCREAT, text_string(&path), 0, 0, "cannot be opened: %s", strerror(errno));
+		goto done;
+	}
 	/* what the program has buffered would be written twice */
 	(void)fflush(NULL);
-	task->pid = fork();
+	arguments[2] = config.data;
+	task->pid = start_child(campaign, arguments, log, mask, timing);
 	if (task->pid < 0) {
 		error_set(err, EX_SOFTWARE, "cannot start a process: %s", strerror(errno));
 		goto done;
-	}
-	if (task->pid == 0) {
-		char *arguments[] = {"talus", "run", config.data, "-o", task->run->folder, "--quiet", NULL,
-			NULL, NULL, NULL};
-		char **next = arguments + 6;
-
-		if (task->report.state == RUN_STATE_FAILED)
-			*next++ = "--retry";
-		if (task_from(campaign, task)) {
-			*next++ = "--continue-from";
-			*next++ = (char *)task_from(campaign, task);
-		}
-		become_run(campaign, arguments, log.data, mask, timing, parent);
 	}
 	(void)setpgid(task->pid, task->pid); /* whoever of the two comes first */
 	task->state = TASK_RUNNING;
@@ -163,8 +187,10 @@ int task_start(const struct campaign *campaign, struct task *task, const sigset_
 	task->timed_out = false;
 	result = 0;
 done:
+	if (log >= 0)
+		(void)close(log);
 	text_clean(&config);
-	text_clean(&log);
+	text_clean(&path);
 	return result;
 }
 
@@ -237,4 +263,21 @@ bool task_reap(const struct campaign *campaign, struct task *task)
 		!task->timed_out && task->refusals++ < REFUSALS_MAX)
 		task->state = TASK_ELSEWHERE;
 	return true;
+}
+
+void task_blame_disk(struct campaign *campaign, struct task *task)
+{
+	enum { LEAST = 1 << 16 }; /* beside a checkpoint that may be larger than the last */
+	struct text path = {0};
+	struct error ignored = {0};
+	size_t size = 0;
+
+	if ((task->state != TASK_FAILED && task->state != TASK_WAITING) ||
+		(task->code != EX_IOERR && task->code != EX_CANTCREAT))
+		return;
+	if (!file_path(&path, task->run->folder, "run.h5", &ignored))
+		(void)file_size(text_string(&path), &size);
+	text_clean(&path);
+	if (!file_has_room(campaign->experiment->folder, 2 * size + LEAST, &campaign->fault))
+		task->state = TASK_INTERRUPTED;
 }

@@ -19,6 +19,12 @@ void task_look(const struct campaign *campaign, struct task *task);
 /* The folder of the run that a run without a file begins with; NULL: it starts at 0. */
 const char *task_from(const struct campaign *campaign, const struct task *task);
 
+/* Is a run that its files call failed, or whose files are damaged, to forget them? */
+bool task_may_begin_anew(const struct campaign *campaign, const struct task *task);
+
+/* Make the run's folder with its config.yaml. EX_CANTCREAT, EX_IOERR. */
+int task_write_config(const struct task *task, struct error *err);
+
 /* Make the run's folder with its config.yaml, and start the child with the signal mask `mask`. The
  * child inherits `timing` (NULL: none), which thus is held until it ends. Returns -1 with `err` when
  * there is no child. */
@@ -27,6 +33,10 @@ int task_start(const struct campaign *campaign, struct task *task, const sigset_
 
 /* Has the child ended? Then the task has its new state: that of waiting if it is to be tried again. */
 bool task_reap(const struct campaign *campaign, struct task *task);
+
+/* A run that could not write: is it the run's own folder, or the disk? On a disk that holds no more,
+ * which is then the campaign's fault, the run is not to blame, and no try of it is used. */
+void task_blame_disk(struct campaign *campaign, struct task *task);
 
 /* Tell a child that has had its time to stop, and after a while without mercy. */
 void task_watch_time(const struct campaign *campaign, struct task *task);

@@ -250,6 +250,15 @@ double campaign_progress(const struct experiment_run *run, const struct run_repo
 	return run->config.time.end > 0 ? fmin(report->time / run->config.time.end, 1) : 0;
 }
 
+void campaign_add_queue(const struct queue_entry *entry, struct text *out)
+{
+	if (!entry->job[0])
+		return;
+	text_addf(out, "%s %s", entry->state, entry->job);
+	if (entry->reason[0] && strcmp(entry->reason, "None") != 0)
+		text_addf(out, " (%s)", entry->reason);
+}
+
 /* A word as a shell takes it. */
 static void add_word(struct text *out, const char *word)
 {

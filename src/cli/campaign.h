@@ -49,6 +49,9 @@ double campaign_progress(const struct experiment_run *run, const struct run_repo
 /* Wall clock to the end of the campaign, s, by what was done since `began` when `done_began` was done. */
 double campaign_left(const struct campaign *campaign, double began, double done_began);
 
+/* What the queue of a cluster says of a run: "PENDING 12_4 (Resources)", or nothing. */
+void campaign_add_queue(const struct queue_entry *entry, struct text *out);
+
 /* What `run` would do with the run, in words. */
 void campaign_describe_plan(
 	const struct campaign *campaign, const struct task *task, struct text *out);

@@ -35,6 +35,8 @@ static const char *task_word(const struct task *task)
 	case TASK_RUNNING:
 	case TASK_ELSEWHERE:
 		return "running";
+	case TASK_QUEUED:
+		return "queued";
 	case TASK_LEFT:
 		return "left";
 	case TASK_WAITING:
@@ -139,7 +141,12 @@ static void tell_failure(const struct task *task)
 	struct text log = {0};
 	char text[ENDED_SIZE];
 
-	(void)fprintf(stderr, "talus: run %s failed", task->run->id);
+	(void)fprintf(stderr, "talus: run %s %s", task->run->id,
+		task->state == TASK_FAILED ? "failed" : "could not write");
+	if (task->report.state == RUN_STATE_DAMAGED && !task->starts && !task->report.blocked) {
+		(void)fprintf(stderr, ": %s; `retry` starts it anew\n", task->report.reason);
+		return;
+	}
 	if (task->code)
 		(void)fprintf(stderr, " (%s)", how_ended(task, text));
 	campaign_log_end(task->run, LOG_LINES, &log);
@@ -147,21 +154,32 @@ static void tell_failure(const struct task *task)
 		(void)fprintf(stderr, "; the end of %s/run.log:\n", task->run->folder);
 		print_log(text_string(&log));
 	} else {
-		(void)fprintf(stderr, ": %s\n", task->report.reason);
+		(void)fprintf(stderr, "%s%s\n", *task->report.reason ? ": " : "", task->report.reason);
 	}
 	text_clean(&log);
+}
+
+static bool is_told(const struct task *task)
+{
+	return task->state == TASK_FAILED ||
+		   (task->state == TASK_INTERRUPTED &&
+			   (task->code == EX_IOERR || task->code == EX_CANTCREAT));
 }
 
 static void tell_counts(const struct campaign *campaign, struct text *out)
 {
 	const struct experiment *experiment = campaign->experiment;
-	size_t ended = count_ended(campaign), failed = campaign_count(campaign, TASK_FAILED);
 	size_t runs = experiment->run_count - campaign_count(campaign, TASK_LEFT);
+	size_t failed = campaign_count(campaign, TASK_FAILED);
+	size_t queued = campaign_count(campaign, TASK_QUEUED);
+	size_t ended = count_ended(campaign) + queued;
 
 	text_addf(out, "%zu run%s in %s: %zu complete", runs, runs == 1 ? "" : "s", experiment->folder,
 		campaign_count(campaign, TASK_COMPLETE));
 	if (failed)
 		text_addf(out, ", %zu failed", failed);
+	if (queued)
+		text_addf(out, ", %zu in the queue", queued);
 	if (ended < runs)
 		text_addf(out, ", %zu unfinished", runs - ended);
 	text_add(out, "\n");
@@ -170,22 +188,33 @@ static void tell_counts(const struct campaign *campaign, struct text *out)
 static int tell_result(const struct campaign *campaign)
 {
 	struct text out = {0};
+	char message[sizeof campaign->fault.text + sizeof campaign->fault.file];
 	int code = campaign_code(campaign), printed;
 
 	tell_counts(campaign, &out);
 	printed = command_print(&out);
 	for (size_t i = 0; i < campaign->experiment->run_count; i++)
-		if (campaign->tasks[i].state == TASK_FAILED)
+		if (is_told(&campaign->tasks[i]))
 			tell_failure(&campaign->tasks[i]);
 		else if (campaign->tasks[i].timed_out && campaign->tasks[i].state == TASK_INTERRUPTED)
 			(void)fprintf(stderr, "talus: run %s: %s at t = %g s\n", campaign->tasks[i].run->id,
 				campaign->tasks[i].report.reason, campaign->tasks[i].report.time);
-	if (campaign->gave_up)
+	if (campaign->fault.code)
+		(void)fprintf(stderr, "talus: %s; nothing more was started, and the same command goes on\n",
+			error_format(&campaign->fault, message, sizeof message));
+	else if (campaign->gave_up)
 		(void)fprintf(stderr, "talus: --max-failures %d is reached: no more runs were started\n",
 			campaign->options.max_failures);
 	else if (code == EX_INTERRUPTED)
 		(void)fprintf(stderr, "talus: stopped; the same command goes on from there\n");
 	return code ? code : printed;
+}
+
+static void tell_line(void *context, const char *line)
+{
+	(void)context;
+	(void)printf("%s\n", line);
+	(void)fflush(stdout);
 }
 
 static int execute(struct campaign *campaign, const struct executor *executor)
@@ -196,11 +225,31 @@ static int execute(struct campaign *campaign, const struct executor *executor)
 	int result;
 
 	campaign_work(campaign, &progress.done_began, &all);
-	campaign->watch = (struct campaign_watch){tell_ended, tell_tick, &progress};
+	campaign->watch = (struct campaign_watch){tell_ended, tell_tick, tell_line, &progress};
 	result = campaign_execute(campaign, executor, &err);
 	if (progress.terminal)
 		(void)fprintf(stderr, "\r\033[K");
 	return result ? command_fail(&err) : tell_result(campaign);
+}
+
+static void tell_aside(void *context, const char *line)
+{
+	(void)context;
+	(void)fprintf(stderr, "talus: %s\n", line);
+}
+
+/* What the executor would hand over, alone on stdout. */
+static int print_handover(struct campaign *campaign, const struct executor *executor)
+{
+	struct text out = {0};
+	struct error err = {0};
+
+	campaign->watch.told = tell_aside;
+	if (executor->plan(campaign, &out, &err)) {
+		text_clean(&out);
+		return command_fail(&err);
+	}
+	return command_print(&out);
 }
 
 /* What `run` would do with the run. */
@@ -212,14 +261,16 @@ void campaign_describe_plan(
 
 	if (task->state == TASK_COMPLETE)
 		text_add(out, "complete, nothing to do");
+	else if (task->queue.job[0])
+		text_add(out, "nothing to do: it is in the queue");
 	else if (task->state == TASK_FAILED)
-		text_add(out, "failed, left as it is without --retry");
+		text_addf(out, "%s, left as it is without --retry", run_state_name(report->state));
 	else if (task->state == TASK_ELSEWHERE)
 		text_add(out, "another process works on it");
-	else if (report->state == RUN_STATE_FAILED)
-		text_add(out, "failed, start anew");
-	else if (report->state == RUN_STATE_DAMAGED)
+	else if (report->state == RUN_STATE_DAMAGED && report->blocked)
 		text_addf(out, "damaged, refused; move %s away to start anew", task->run->folder);
+	else if (report->state == RUN_STATE_FAILED || report->state == RUN_STATE_DAMAGED)
+		text_addf(out, "%s, start anew", run_state_name(report->state));
 	else if (report->state == RUN_STATE_PENDING && task->before != SIZE_MAX)
 		text_addf(out, "go on to %g s from %s, once that is complete", end,
 			campaign->tasks[task->before].run->id);
@@ -231,6 +282,7 @@ void campaign_describe_plan(
 		text_addf(out, "resume at %g s of %g s", report->time, end);
 }
 
+/* What `run` would do with each run. */
 static int print_plan(const struct campaign *campaign)
 {
 	size_t runs = campaign->experiment->run_count;
@@ -263,13 +315,21 @@ static int run_campaign(const struct campaign_arguments *arguments,
 	int code;
 
 	if (!executor)
-		return command_usage("campaign", "--executor %s: there is only local", arguments->executor);
+		return command_usage(
+			"campaign", "--executor %s: there are local and slurm", arguments->executor);
+	if (executor->queue && (options->timeout > 0 || options->max_failures))
+		return command_usage("campaign",
+			"--executor %s takes no --%s: a queue has no eye on its runs%s", arguments->executor,
+			options->timeout > 0 ? "timeout" : "max-failures",
+			options->timeout > 0 ? "; its limit is `time` in the section `slurm:`" : "");
 	if (campaign_create(&campaign, experiment, options, &err) ||
 		(failed_only &&
 			campaign_select_failed(&campaign, arguments->names, arguments->name_count, &err)))
 		code = command_fail(&err);
+	else if (!arguments->dry_run)
+		code = execute(&campaign, executor);
 	else
-		code = arguments->dry_run ? print_plan(&campaign) : execute(&campaign, executor);
+		code = executor->plan ? print_handover(&campaign, executor) : print_plan(&campaign);
 	campaign_clean(&campaign);
 	return code;
 }
@@ -292,7 +352,8 @@ static int retry_main(
 
 #define OPTIONS_OF_POOL                                                                            \
 	"  -j, --jobs N          runs at a time; an experiment with `timing: true` makes it 1\n"       \
-	"                        (default: the number of processors)\n"                                \
+	"                        (default: the number of processors; slurm: the throttle of its "      \
+	"section)\n"                                                                                   \
 	"  -n, --dry-run         print what would be done and change nothing (default: off)\n"         \
 	"  -t, --timeout SPAN    stop a run after so much wall clock, such as 90 s or 2 h, with its\n" \
 	"                        checkpoint written (default: never)\n"                                \
@@ -300,7 +361,9 @@ static int retry_main(
 	"      --order ORDER     longest: the longest expected run first; given: as in the "           \
 	"experiment,\n"                                                                                \
 	"                        as those with `timing: true` always are (default: longest)\n"         \
-	"  -e, --executor NAME   how runs are executed: local (default: local)\n"
+	"  -e, --executor NAME   how runs are executed: local, as processes of this machine, or "      \
+	"slurm,\n"                                                                                     \
+	"                        as job arrays of a cluster, without -t and -m (default: local)\n"
 
 const struct campaign_action campaign_action_run = {
 	.name = "run",
@@ -315,8 +378,8 @@ const struct campaign_action campaign_action_run = {
 		"Ctrl-C stops all runs with their checkpoints written; the same command goes on from "
 		"there.\nA run that differs from another by a later time.end alone goes on from that "
 		"one.\n\n"
-		"exit: 0 all runs are complete, 1 one failed, 65 bad experiment, 75 stopped and "
-		"resumable\n",
+		"exit: 0 all runs are complete or in the queue, 1 one failed, 65 bad experiment,\n"
+		"69 Slurm is not there or refuses, 75 stopped and resumable\n",
 	.options = "jnrtmeO",
 	.main = run_main,
 };
@@ -329,9 +392,9 @@ const struct campaign_action campaign_action_retry = {
 		"example: talus campaign retry experiments/quickstart.yaml\n\n"
 		"RUN is a name as `status` prints it, the beginning of one, or digits of its hash.\n\n"
 		"options:\n" OPTIONS_OF_POOL "  -r, --retry N         start each anew up to N times "
-		"(default: 1)\n" CAMPAIGN_OPTIONS_OF_ALL
-		"exit: 0 these runs are complete, 1 one failed again, 65 bad experiment or no such run,\n"
-		"75 stopped and resumable\n",
+		"(default: 1)\n" CAMPAIGN_OPTIONS_OF_ALL "exit: 0 these runs are complete or in the queue, "
+		"1 one failed again, 65 bad experiment or\n"
+		"no such run, 69 Slurm is not there or refuses, 75 stopped and resumable\n",
 	.options = "jnrtmeO",
 	.names = true,
 	.main = retry_main,

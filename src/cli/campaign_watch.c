@@ -13,8 +13,19 @@ struct watch {
 	struct campaign *campaign;
 	double began, done_began; /* wall clock and work at the first look */
 	double told;              /* when the last line about the whole was printed, s */
+	double asked;             /* when the queue of a cluster last was, s */
 	int drawn;                /* lines on the terminal to be drawn over */
 };
+
+/* Runs that wait in the queue of a cluster. */
+static size_t count_queued(const struct campaign *campaign)
+{
+	size_t count = 0;
+
+	for (size_t i = 0; i < campaign->experiment->run_count; i++)
+		count += campaign->tasks[i].queue.job[0] && campaign->tasks[i].state == TASK_WAITING;
+	return count;
+}
 
 /* "3 of 8 complete, 1 failed, 2 running, 41 %, 0.97 CPU s per s, 3 min 05 s left" */
 static void summarise(const struct watch *watch, struct text *out)
@@ -22,6 +33,7 @@ static void summarise(const struct watch *watch, struct text *out)
 	const struct campaign *campaign = watch->campaign;
 	size_t running = campaign_count(campaign, TASK_ELSEWHERE),
 		   failed = campaign_count(campaign, TASK_FAILED);
+	size_t queued = count_queued(campaign);
 	double done, all, passed = clock_wall() - watch->began;
 	char span[CLOCK_SPAN_SIZE];
 
@@ -30,6 +42,8 @@ static void summarise(const struct watch *watch, struct text *out)
 		campaign->experiment->run_count);
 	if (failed)
 		text_addf(out, ", %zu failed", failed);
+	if (queued)
+		text_addf(out, ", %zu in the queue", queued);
 	text_addf(
 		out, ", %zu running, %.0f %%", running, all > 0 ? floor(100 * done / all + 1e-9) : 100);
 	if (running && passed > 2)
@@ -124,6 +138,19 @@ static void print_changes(struct watch *watch, enum run_state *before, double ev
 	(void)command_print(&out);
 }
 
+/* Not at every look: the whole cluster shares its answers. One that is not answered is of no interest here;
+ * `status` tells it. */
+static void ask_queue(struct watch *watch)
+{
+	enum { EVERY = 10 };
+	struct error ignored = {0};
+
+	if (watch->asked > 0 && clock_wall() - watch->asked < EVERY)
+		return;
+	watch->asked = clock_wall();
+	(void)campaign_ask_queue(watch->campaign, &ignored);
+}
+
 static bool is_over(const struct campaign *campaign)
 {
 	return !campaign_count(campaign, TASK_WAITING) && !campaign_count(campaign, TASK_ELSEWHERE);
@@ -143,6 +170,7 @@ static int watch_campaign(struct watch *watch, double every, struct error *err)
 	watch->began = clock_wall();
 	campaign_work(campaign, &watch->done_began, &all);
 	for (;;) {
+		ask_queue(watch);
 		if (terminal)
 			draw(watch);
 		else

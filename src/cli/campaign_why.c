@@ -141,6 +141,11 @@ static void add_progress(const struct task *task, struct text *out)
 	if (report->state == RUN_STATE_RUNNING && isfinite(report->wall_left))
 		text_addf(out, ", %s left", clock_span(report->wall_left, left));
 	text_add(out, "\n");
+	if (task->queue.job[0]) {
+		text_add(out, "  queue: ");
+		campaign_add_queue(&task->queue, out);
+		text_add(out, "\n");
+	}
 	if (report->reason[0])
 		text_addf(out, "  reason: %s\n", report->reason);
 }
@@ -254,11 +259,17 @@ static int why_main(const struct campaign_arguments *arguments, const struct exp
 {
 	struct campaign campaign;
 	struct text out = {0};
-	struct error err = {0};
+	struct error err = {0}, refusal = {0};
 	int code = 0;
 
-	if (campaign_create(&campaign, experiment, &arguments->options, &err) ||
-		explain_named(arguments, &campaign, &out, &err))
+	if (campaign_create(&campaign, experiment, &arguments->options, &err) == 0 &&
+		campaign_ask_queue(&campaign, &refusal)) {
+		if (refusal.code == EX_SOFTWARE)
+			err = refusal;
+		else
+			(void)fprintf(stderr, "talus: warning: the queue is not known: %s\n", refusal.text);
+	}
+	if (err.code || explain_named(arguments, &campaign, &out, &err))
 		code = command_fail(&err);
 	else if (!arguments->name_count)
 		explain_unfinished(&campaign, &out);

@@ -77,17 +77,29 @@ void command_settings_clean(struct command_settings *settings)
 	*settings = (struct command_settings){0};
 }
 
-int command_print(struct text *text)
+int command_flush(int code)
 {
 	struct error err = {0};
 
+	if (fflush(stdout) == 0 && !ferror(stdout))
+		return code;
+	(void)error_set(&err, EX_IOERR, "standard output cannot be written: %s", strerror(errno));
+	clearerr(stdout);
+	return code ? code : command_fail(&err);
+}
+
+int command_print(struct text *text)
+{
+	struct error err = {0};
+	int code;
+
 	if (text->failed) {
 		(void)error_memory(&err, text->capacity);
-	} else if (fwrite(text_string(text), 1, text->length, stdout) != text->length ||
-			   fflush(stdout) != 0) {
-		(void)error_set(&err, EX_IOERR, "standard output cannot be written: %s", strerror(errno));
-		clearerr(stdout);
+		code = command_fail(&err);
+	} else {
+		(void)fwrite(text_string(text), 1, text->length, stdout);
+		code = command_flush(0);
 	}
 	text_clean(text);
-	return err.code ? command_fail(&err) : 0;
+	return code;
 }

@@ -35,6 +35,10 @@ struct command_settings {
 int command_settings_add(struct command_settings *settings, const char *text, struct error *err);
 void command_settings_clean(struct command_settings *settings);
 
+/* The exit code of a command that ended with `code` once what it printed is out: EX_IOERR after a message
+ * where that fails and nothing else did. */
+int command_flush(int code);
+
 /* Write `text` to stdout now and empty it. Returns 0, or the exit code after a message: EX_IOERR where
  * stdout cannot be written, EX_SOFTWARE where the text ran out of memory. */
 int command_print(struct text *text);

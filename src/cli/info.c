@@ -66,6 +66,10 @@ static int add_config(struct run_file *file, struct text *out, struct error *err
 						   run_file_path(file), NULL, 0, &other_version) == 0)
 		config_print_leading(&config, out);
 	text_clean(&stored);
+	if (other_version.code == EX_SOFTWARE) {
+		*err = other_version;
+		return -1;
+	}
 	return result;
 }
 

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "base/stop.h"
 #include "cli/command.h"
 #include "cli/commands.h"
@@ -95,16 +96,6 @@ static int read_options(int argc, char **argv, struct run_command *command)
 	return 0;
 }
 
-/* results/STEM for DIR/STEM.yaml */
-static void add_default_folder(struct text *folder, const char *file)
-{
-	const char *slash = strrchr(file, '/'), *stem = slash ? slash + 1 : file;
-	const char *dot = strrchr(stem, '.');
-
-	text_add(folder, "results/");
-	text_add_bytes(folder, stem, dot && dot > stem ? (size_t)(dot - stem) : strlen(stem));
-}
-
 /* Threads of a run that have nothing to do are to sleep, not to spin on a processor that another run may
  * have. OpenMP reads that from the environment before main begins: begin anew, with it set. Goes on
  * spinning where FILE can be read only once. */
@@ -124,10 +115,12 @@ static int execute(struct run_command *command, char **argv)
 	struct error err = {0};
 	int code = 0;
 
-	if (command->folder)
-		text_add(&folder, command->folder);
-	else
-		add_default_folder(&folder, command->file);
+	text_add(&folder, command->folder ? command->folder : "results/");
+	if (!command->folder && !file_stem(command->file, &folder)) {
+		text_clean(&folder);
+		return command_usage("run",
+			"the name of %s is none for a folder of results; name one with -o", command->file);
+	}
 	command->run.say = say;
 	stop_install();
 	if (folder.failed)
@@ -142,7 +135,7 @@ static int execute(struct run_command *command, char **argv)
 	if (err.code && !code)
 		code = command_fail(&err);
 	text_clean(&folder);
-	return code;
+	return command_flush(code);
 }
 
 static int run_main(int argc, char **argv)

@@ -173,16 +173,24 @@ static int check_names(const struct tables_options *options, const struct experi
 	return 0;
 }
 
+static void add_option(struct text *command, const char *option, const char *value)
+{
+	text_addf(command, " %s ", option);
+	text_add_word(command, value);
+}
+
 /* The command that prints this table again. */
 static void write_command(
 	const struct tables_options *options, const char *table, struct text *command)
 {
-	text_addf(command, "talus-tables %s", options->experiment);
+	text_addf(
+		command, "talus-tables %s", options->experiment && *options->experiment == '-' ? "./" : "");
+	text_add_word(command, options->experiment);
 	if (options->folder)
-		text_addf(command, " -o %s", options->folder);
+		add_option(command, "-o", options->folder);
 	for (int i = 0; i < options->settings.count; i++)
-		text_addf(command, " --set '%s'", options->settings.list[i]);
-	text_addf(command, " --table %s", table);
+		add_option(command, "--set", options->settings.list[i]);
+	add_option(command, "--table", table);
 }
 
 /* One table to stdout and what it misses to stderr; EX_FAILED if that is anything. */
@@ -190,12 +198,14 @@ static int print_one(const struct tables_options *options, const struct experime
 	const struct experiment_table *wanted, bool first)
 {
 	struct text command = {0}, out = {0};
-	struct table table;
+	struct table table = {0};
 	struct error err = {0};
 	int code;
 
 	write_command(options, wanted->name.text, &command);
-	if (table_build(&table, experiment, wanted, text_string(&command), &err)) {
+	if (command.failed)
+		(void)error_memory(&err, command.length);
+	if (command.failed || table_build(&table, experiment, wanted, text_string(&command), &err)) {
 		code = command_fail(&err);
 	} else {
 		text_add(&out, first ? "" : "\n");

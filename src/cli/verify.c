@@ -1,5 +1,8 @@
 /* talus verify: are these run files good? */
+#include <dirent.h>
+#include <errno.h>
 #include <getopt.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/file.h"
@@ -9,14 +12,22 @@
 #include "run/verify.h"
 
 static const char help[] =
-	"Check run files: their digest, times that grow, lengths that fit, mass that is conserved.\n\n"
+	"Check run files: their digest, times that grow, lengths that fit, mass that is conserved, "
+	"and\n"
+	"that what campaigns go by is what the file says.\n\n"
 	"usage: talus verify PATH...\n"
 	"example: talus verify results/granular-collapse\n\n"
-	"PATH is a run file, or a run folder: then both generations are checked, run.h5 and\n"
-	"run.previous.h5, and a run goes on from the newest that is good.\n\n"
+	"PATH is a run file, a run folder, or a folder of run folders, as a campaign has it. Of a run\n"
+	"both generations are checked, run.h5 and run.previous.h5; it goes on from the newest that is "
+	"good.\n\n"
 	"options:\n"
 	"  -h, --help  print this\n\n"
 	"exit: 0 all are good, 65 one is damaged or is no run file\n";
+
+/* Run files, and those that are not good. */
+struct verdict {
+	size_t files, bad;
+};
 
 /* A line about one run file, and one for each thing that is wrong with its content. */
 static int add_verdict(const char *path, struct text *out, bool *good, struct error *err)
@@ -57,42 +68,94 @@ done:
 	return result;
 }
 
-/* Both generations of a folder, those that exist. */
-static int add_folder(const char *folder, struct text *out, bool *good, struct error *err)
+/* Both generations of a run folder, those that exist, and which of them a run goes on from. */
+static int add_folder(
+	const char *folder, struct text *out, struct verdict *verdict, struct error *err)
+{
+	static const char *const names[] = {RUN_FILE_NEWEST, RUN_FILE_PREVIOUS};
+	const char *newest = NULL;
+	struct text path = {0};
+	bool good = false;
+
+	for (size_t i = 0; i < 2; i++) {
+		if (file_path(&path, folder, names[i], err) != 0 ||
+			(file_exists(text_string(&path)) &&
+				add_verdict(text_string(&path), out, &good, err) != 0)) {
+			text_clean(&path);
+			return -1;
+		}
+		if (!file_exists(text_string(&path)))
+			continue;
+		verdict->files++;
+		verdict->bad += !good;
+		newest = good && !newest ? names[i] : newest;
+	}
+	if (newest)
+		text_addf(out, "%s: %s is the newest good generation\n", folder, newest);
+	else
+		text_addf(out, "%s: no generation is good\n", folder);
+	text_clean(&path);
+	return 0;
+}
+
+static bool is_run_folder(const char *folder, struct error *err)
 {
 	static const char *const names[] = {RUN_FILE_NEWEST, RUN_FILE_PREVIOUS};
 	struct text path = {0};
-	bool all = true, any = false;
-	int result = 0;
+	bool found = false;
 
-	for (size_t i = 0; i < 2 && result == 0; i++) {
-		result = file_path(&path, folder, names[i], err);
-		if (result != 0 || !file_exists(text_string(&path)))
-			continue;
-		result = add_verdict(text_string(&path), out, good, err);
-		all &= *good;
-		any = true;
-	}
-	if (!any)
-		text_addf(out, "%s: holds no run file\n", folder);
-	*good = all && any;
+	for (size_t i = 0; i < 2 && !found; i++)
+		found = file_path(&path, folder, names[i], err) == 0 && file_exists(text_string(&path));
 	text_clean(&path);
+	return found;
+}
+
+/* The run folders in `folder`, as a campaign has them. */
+static int add_folders(
+	const char *folder, struct text *out, struct verdict *verdict, struct error *err)
+{
+	struct dirent **entries = NULL;
+	int count = scandir(folder, &entries, NULL, alphasort), result = 0;
+
+	if (count < 0)
+		return error_at(err, EX_DATAERR, folder, 0, 0, "cannot be read: %s", strerror(errno));
+	for (int i = 0; i < count; i++) {
+		struct text path = {0};
+
+		if (!result && entries[i]->d_name[0] != '.') {
+			result = file_path(&path, folder, entries[i]->d_name, err);
+			if (!result && is_run_folder(text_string(&path), err))
+				result = add_folder(text_string(&path), out, verdict, err);
+			result = err->code ? -1 : result;
+		}
+		text_clean(&path);
+		free(entries[i]);
+	}
+	free(entries);
+	if (!result && !verdict->files)
+		text_addf(out, "%s: holds no run file\n", folder);
 	return result;
 }
 
 static int verify_path(const char *path)
 {
+	struct verdict verdict = {0};
 	struct error err = {0};
 	struct text out = {0};
 	bool good = false;
-	int result = file_is_folder(path) ? add_folder(path, &out, &good, &err)
-									  : add_verdict(path, &out, &good, &err);
-	int code = result ? 0 : command_print(&out);
+	int code;
 
+	if (!file_is_folder(path)) {
+		(void)add_verdict(path, &out, &good, &err);
+		verdict = (struct verdict){1, !good};
+	} else if (is_run_folder(path, &err)) {
+		(void)add_folder(path, &out, &verdict, &err);
+	} else if (!err.code) {
+		(void)add_folders(path, &out, &verdict, &err);
+	}
+	code = err.code ? command_fail(&err) : command_print(&out);
 	text_clean(&out);
-	if (result != 0)
-		return command_fail(&err);
-	return code ? code : good ? 0 : EX_DATAERR;
+	return code ? code : verdict.files && !verdict.bad ? 0 : EX_DATAERR;
 }
 
 static int verify_main(int argc, char **argv)

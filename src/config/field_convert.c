@@ -65,13 +65,14 @@ static int convert_list(const struct field *field, const struct field_place *pla
 	struct real_list *list, struct error *err)
 {
 	const struct node *node = place->node;
-	const int max = (int)(sizeof list->values / sizeof *list->values);
+	double values[REAL_LIST_MAX] = {0};
 
 	if (node->kind != NODE_SEQUENCE)
 		return error_set(
 			err, EX_DATAERR, "expected a list such as [1, 2], not %s", node_kind_name(node));
-	if (node->count > (size_t)max)
-		return error_set(err, EX_DATAERR, "a list of %zu values; at most %d fit", node->count, max);
+	if (node->count > REAL_LIST_MAX)
+		return error_set(
+			err, EX_DATAERR, "a list of %zu values; at most %d fit", node->count, REAL_LIST_MAX);
 	for (size_t i = 0; i < node->count; i++) {
 		const struct node *item = &node->items[i];
 		char shown[EXCERPT];
@@ -79,15 +80,14 @@ static int convert_list(const struct field *field, const struct field_place *pla
 		if (item->kind != NODE_SCALAR)
 			(void)error_set(
 				err, EX_DATAERR, "expected a single value, not %s", node_kind_name(item));
-		else if (convert_real(field, item->text, &list->values[i], err) == 0 && i > 0 &&
-				 !(field->flags & FIELD_UNSORTED) && list->values[i] <= list->values[i - 1])
+		else if (convert_real(field, item->text, &values[i], err) == 0 && i > 0 &&
+				 !(field->flags & FIELD_UNSORTED) && values[i] <= values[i - 1])
 			(void)error_set(err, EX_DATAERR, "%s is not above the value before it",
 				text_excerpt(item->text, shown, sizeof shown));
 		if (err->code)
 			return field_set_place(place->source, item, err);
 	}
-	list->count = (int)node->count;
-	return 0;
+	return real_list_keep(list, values, (int)node->count, err);
 }
 
 static int convert_value(

@@ -1,8 +1,9 @@
-/* What the files of the field tables share among themselves: field.c, field_convert.c, field_print.c. */
+/* What the files of the field tables share among themselves: field.c, field_convert.c, field_print.c, real_list.c. */
 #ifndef TALUS_FIELD_PARTS_H
 #define TALUS_FIELD_PARTS_H
 
 #include "config/field.h"
+#include "talus/config.h"
 
 enum { EXCERPT = 80 }; /* bytes of a user's text that a message shows */
 
@@ -26,5 +27,8 @@ int field_check_range(
 
 /* "above 0 m and at most 1 m" */
 void field_describe_range(const struct field *field, struct text *out);
+
+/* real_list.c: make `list` these numbers, of which a copy is kept once for all lists. EX_SOFTWARE. */
+int real_list_keep(struct real_list *list, const double *values, int count, struct error *err);
 
 #endif

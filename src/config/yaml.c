@@ -6,6 +6,7 @@
 #include <string.h>
 #include <yaml.h>
 
+#include "base/file.h"
 #include "talus/text.h"
 
 enum { DEPTH_MAX = 16, NODES_MAX = 100000, BYTES_MAX = 1 << 20, EXCERPT = 80 };
@@ -269,10 +270,15 @@ static int read_document(struct loader *loader, struct node *root)
 int yaml_parse(
 	struct node *root, const char *text, size_t length, const char *name, struct error *err)
 {
+	static const char mark[] = "\xEF\xBB\xBF"; /* which some editors put before UTF-8 */
 	struct loader loader = {.name = name, .err = err};
 	int status;
 
 	*root = (struct node){0};
+	if (length >= sizeof mark - 1 && !memcmp(text, mark, sizeof mark - 1)) {
+		text += sizeof mark - 1;
+		length -= sizeof mark - 1;
+	}
 	if (length > BYTES_MAX)
 		return error_at(err, EX_DATAERR, name, 0, 0, "more than 1 MiB of text");
 	TRY(check_characters(text, length, name, err));
@@ -287,27 +293,18 @@ int yaml_parse(
 
 int yaml_load(struct node *root, const char *path, struct error *err)
 {
-	FILE *file = fopen(path, "re");
-	char *text = NULL;
-	size_t length;
+	char *text = malloc(BYTES_MAX + 1);
+	ssize_t length;
 	int status = -1;
 
 	*root = (struct node){0};
-	if (!file)
-		return error_at(err, EX_DATAERR, path, 0, 0, "cannot be read: %s", strerror(errno));
-	text = malloc(BYTES_MAX + 1);
-	if (!text) {
-		(void)error_memory(err, BYTES_MAX + 1);
-		goto done;
-	}
-	length = fread(text, 1, BYTES_MAX + 1, file);
-	if (ferror(file)) {
+	if (!text)
+		return error_memory(err, BYTES_MAX + 1);
+	length = file_read_text(path, text, BYTES_MAX + 1);
+	if (length < 0)
 		(void)error_at(err, EX_DATAERR, path, 0, 0, "cannot be read: %s", strerror(errno));
-		goto done;
-	}
-	status = yaml_parse(root, text, length, path, err);
-done:
+	else
+		status = yaml_parse(root, text, (size_t)length, path, err);
 	free(text);
-	(void)fclose(file);
 	return status;
 }

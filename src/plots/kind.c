@@ -141,13 +141,13 @@ static int dataset_axis(const struct kind_request *request, const struct kind_ru
 {
 	struct text unit = {0}, words = {0};
 	struct meaning meaning = {.name = name};
-	int result;
+	int result = run_file_dataset_text(run->file, name, "units", &unit, err) ||
+				 run_file_dataset_text(run->file, name, "long_name", &words, err);
 
-	run_file_dataset_text(run->file, name, "units", &unit);
-	run_file_dataset_text(run->file, name, "long_name", &words);
 	meaning.unit = text_string(&unit);
 	meaning.words = text_string(&words);
-	result = kind_axis(request, run, index, &meaning, factor, err);
+	if (!result)
+		result = kind_axis(request, run, index, &meaning, factor, err);
 	text_clean(&unit);
 	text_clean(&words);
 	return result;
@@ -377,8 +377,9 @@ static int add_map(const struct kind_request *request, const struct kind_run *ru
 	if (dataset_axis(request, run, 1, "profile_time", &factor, err))
 		goto done;
 	multiply(map.y, map.rows, factor);
-	run_file_dataset_text(run->file, name, "units", &unit);
-	run_file_dataset_text(run->file, name, "long_name", &words);
+	if (run_file_dataset_text(run->file, name, "units", &unit, err) ||
+		run_file_dataset_text(run->file, name, "long_name", &words, err))
+		goto done;
 	meaning.unit = text_string(&unit);
 	meaning.words = text_string(&words);
 	meaning.dimensionless = request->wanted->dimensionless && run->config;

@@ -132,7 +132,7 @@ static int add_runs(struct panel *panel, struct figure *figure, struct error *er
 		/* the repeats of a run are alike but for the clock */
 		if (panel->layout.places[i].row == LAYOUT_NOWHERE || run->repeat > 1)
 			continue;
-		one.file = measured_open(run, panel->layout.what, &figure->missing, NULL);
+		TRY(measured_open(run, panel->layout.what, &figure->missing, NULL, &one.file, err));
 		if (!one.file)
 			continue;
 		one.part_count = panel_parts(panel, i, parts);

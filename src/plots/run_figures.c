@@ -81,15 +81,19 @@ static int open_source(
 								   path, NULL, 0, &unknown) == 0;
 	text_clean(&warning);
 	text_clean(&config);
-	return 0;
+	if (unknown.code != EX_SOFTWARE)
+		return 0;
+	*err = unknown;
+	return -1;
 }
 
-static bool any_has(const struct run_sources *sources, const char *name)
+static int any_has(
+	const struct run_sources *sources, const char *name, bool *has, struct error *err)
 {
-	for (size_t i = 0; i < sources->count; i++)
-		if (run_file_has(sources->items[i].file, name))
-			return true;
-	return false;
+	*has = false;
+	for (size_t i = 0; i < sources->count && !*has; i++)
+		TRY(run_file_has(sources->items[i].file, name, has, err));
+	return 0;
 }
 
 /* One panel, or one for each run, of all runs. */
@@ -113,9 +117,9 @@ static int add_panel(const struct run_sources *sources, const struct experiment_
 			source->file, source->config_known ? &source->config : NULL, source->name, &part, 1};
 		bool has = false;
 
-		for (size_t k = 0; k < wanted->y.count; k++)
-			has |= run_file_has(source->file, wanted->y.items[k].text);
-		if (has)
+		for (size_t k = 0; !result && !has && k < wanted->y.count; k++)
+			result = run_file_has(source->file, wanted->y.items[k].text, &has, err);
+		if (!result && has)
 			result = kind_add_run(&request, &run, err);
 	}
 	if (!result)
@@ -139,8 +143,10 @@ static int add_panels(const struct run_sources *sources, const char *kind, const
 
 	for (size_t i = 0; i < count; i++) {
 		struct term y = {names[i], 0, 0};
+		bool has;
 
-		if (!any_has(sources, names[i]))
+		TRY(any_has(sources, names[i], &has, err));
+		if (!has)
 			continue;
 		if (like->together) {
 			all[kept++] = y;
@@ -154,28 +160,29 @@ static int add_panels(const struct run_sources *sources, const char *kind, const
 }
 
 /* Datasets of a model that the table of figures does not know: series, or columns across layers. */
-static size_t find_datasets(
-	const struct run_sources *sources, bool columns, struct text *list, const char **names)
+static int find_datasets(const struct run_sources *sources, bool columns, struct text *list,
+	const char **names, size_t *count, struct error *err)
 {
 	struct run_file *file = sources->items[0].file;
-	struct error err = {0};
-	size_t count = 0;
+	size_t cells = 0;
 	char *rest = NULL;
 
-	if (run_file_names(file, list, &err) || !list->data)
-		return 0;
-	for (char *name = strtok_r(list->data, "\n", &rest); name; name = strtok_r(NULL, "\n", &rest)) {
+	*count = 0;
+	TRY(run_file_names(file, list, err));
+	if (columns)
+		TRY(run_file_scale_length(file, "x", 0, &cells, err));
+	for (char *name = list->data ? strtok_r(list->data, "\n", &rest) : NULL; name;
+		 name = strtok_r(NULL, "\n", &rest)) {
 		bool fits = columns
 						? slice_layer_axis(file, name + 1) &&
-							  slice_has_axis(file, name + 1, "profile_time") &&
-							  run_file_scale_length(file, "x", 0) <= 1
+							  slice_has_axis(file, name + 1, "profile_time") && cells <= 1
 						: slice_has_axis(file, name + 1, "time") && strncmp(name, "/cpu", 4) != 0 &&
 							  strcmp(name, "/time") != 0 && strcmp(name, "/dt") != 0;
 
-		if (fits && !strchr(name + 1, '/') && count < FOUND_MAX)
-			names[count++] = name + 1;
+		if (fits && !strchr(name + 1, '/') && *count < FOUND_MAX)
+			names[(*count)++] = name + 1;
 	}
-	return count;
+	return 0;
 }
 
 static int draw_found(
@@ -187,11 +194,13 @@ static int draw_found(
 	const char *names[FOUND_MAX];
 	struct text list = {0};
 	struct figure figure = {.name = like[columns].name};
-	size_t count = find_datasets(sources, columns, &list, names);
-	int result;
+	size_t count;
+	int result = find_datasets(sources, columns, &list, names, &count, err);
 
 	text_add(&figure.title, like[columns].title);
-	result = add_panels(sources, like[columns].kind, names, count, &like[columns], &figure, err);
+	if (!result)
+		result =
+			add_panels(sources, like[columns].kind, names, count, &like[columns], &figure, err);
 	if (!result)
 		result = plots_write(&figure, output, err);
 	figure_clean(&figure);
@@ -221,6 +230,7 @@ int plots_draw_runs(
 	const char *const *paths, size_t count, struct plots_output *output, struct error *err)
 {
 	struct run_sources sources = {calloc(count + 1, sizeof *sources.items), count};
+	bool fronts = false;
 	int result = 0;
 
 	if (!sources.items)
@@ -229,9 +239,11 @@ int plots_draw_runs(
 		result = open_source(&sources.items[i], paths[i], &output->missing, err);
 	for (size_t i = 0; !result && i < sizeof figures / sizeof *figures; i++)
 		result = draw_figure(&sources, &figures[i], output, err);
-	if (!result && !any_has(&sources, "front_position"))
+	if (!result)
+		result = any_has(&sources, "front_position", &fronts, err);
+	if (!result && !fronts)
 		result = draw_found(&sources, false, output, err);
-	if (!result && !any_has(&sources, "front_position"))
+	if (!result && !fronts)
 		result = draw_found(&sources, true, output, err);
 	for (size_t i = 0; i < count; i++) {
 		run_file_close(sources.items[i].file);

@@ -170,9 +170,11 @@ int slice_read(struct run_file *file, const char *name, const struct slice_place
 	struct dataset data;
 	size_t length = 0;
 	int result;
+	bool has;
 
 	*out = (struct slice){0};
-	if (!run_file_has(file, name))
+	TRY(run_file_has(file, name, &has, err));
+	if (!has)
 		return error_set(err, EX_DATAERR, "there is no dataset '%s'", name);
 	TRY(run_file_dataset(file, name, &data, err));
 	result = cut(file, name, place, &data, out, err);

@@ -23,6 +23,7 @@ struct attempt {
 	const struct config *config;
 	const char *folder;
 	const struct run_options *options;
+	const struct lock *lock; /* of run.lock; NULL: this folder has no other users */
 
 	struct model_state *state;
 	struct recorder *recorder;

@@ -6,6 +6,7 @@
 
 #include "base/build.h"
 #include "base/file.h"
+#include "base/lock.h"
 #include "run/run_file_parts.h"
 #include "run/trailer.h"
 
@@ -105,6 +106,20 @@ static size_t state_size(const struct attempt *attempt)
 	return values * sizeof(double);
 }
 
+/* A second process in this folder would write under the same temporary names. */
+static int check_lock(const struct attempt *attempt, struct error *err)
+{
+	struct text path = {0};
+	int result = file_path(&path, attempt->folder, "run.lock", err);
+
+	if (result == 0 && attempt->lock && file_is_folder(attempt->folder) &&
+		!lock_is_named(attempt->lock, path.data))
+		result = error_at(err, EX_IOERR, path.data, 0, 0,
+			"was removed or replaced while this process held it: another may work here");
+	text_clean(&path);
+	return result;
+}
+
 /* End an image and bring it to disk with its trailer; the image is freed in every case. */
 static int publish(struct attempt *attempt, struct image *image, const struct run_summary *summary,
 	struct error *err)
@@ -119,7 +134,9 @@ static int publish(struct attempt *attempt, struct image *image, const struct ru
 
 	TRY(image_finish(image, TRAILER_SIZE, &bytes, &size, err));
 	trailer_write(summary, bytes, size, bytes + size);
-	result = file_replace(&place, &(struct file_part){bytes, size + TRAILER_SIZE}, 1, err);
+	result = check_lock(attempt, err);
+	if (result == 0)
+		result = file_replace(&place, &(struct file_part){bytes, size + TRAILER_SIZE}, 1, err);
 	free(bytes);
 	if (result == 0)
 		attempt->keep_newest = true;
@@ -198,8 +215,10 @@ static int read_mark(
 int checkpoint_read(struct attempt *attempt, struct run_file *file, struct error *err)
 {
 	const struct run_summary *summary = run_file_summary(file);
+	bool has;
 
-	if (run_file_has(file, RUN_FILE_CONTINUATION)) {
+	TRY(run_file_has(file, RUN_FILE_CONTINUATION, &has, err));
+	if (has) {
 		struct attempt_mark *mark = &attempt->mark;
 
 		TRY(read_arrays(attempt, file, RUN_FILE_CONTINUATION, err));
@@ -215,7 +234,10 @@ int checkpoint_read(struct attempt *attempt, struct run_file *file, struct error
 
 int checkpoint_continue(struct attempt *attempt, struct run_file *file, struct error *err)
 {
-	if (!run_file_has(file, RUN_FILE_CONTINUATION)) /* stopped before its end made a difference */
+	bool has;
+
+	TRY(run_file_has(file, RUN_FILE_CONTINUATION, &has, err));
+	if (!has) /* stopped before its end made a difference */
 		return checkpoint_read(attempt, file, err);
 	TRY(read_arrays(attempt, file, RUN_FILE_CONTINUATION, err));
 	attempt->model->restored(attempt->state);

@@ -113,25 +113,45 @@ static bool is_exempt(const char *path)
 	return !strncmp(name, "cpu_", 4) || !strncmp(name, "wall_", 5) || !strncmp(name, "index_", 6);
 }
 
+/* What only `b` holds, of its list of names. */
+static int tell_more(
+	struct run_file *a, struct run_file *b, char *names, struct text *out, struct error *err)
+{
+	char *rest;
+	bool has;
+
+	for (char *path = strtok_r(names, "\n", &rest); path; path = strtok_r(NULL, "\n", &rest)) {
+		if (is_exempt(path))
+			continue;
+		TRY(run_file_has(a, path, &has, err));
+		if (!has)
+			text_addf(out, "%s: only in %s\n", path, run_file_path(b));
+	}
+	return 0;
+}
+
 int compare_run_files(struct run_file *a, struct run_file *b, struct text *out, struct error *err)
 {
 	struct text first = {0}, second = {0};
+	bool has;
 	char *rest;
 	int result = -1;
 
 	if (compare_attributes(a, b, out, err) != 0 || run_file_names(a, &first, err) != 0 ||
 		run_file_names(b, &second, err) != 0)
 		goto done;
-	for (char *path = strtok_r(first.data, "\n", &rest); path; path = strtok_r(NULL, "\n", &rest))
+	for (char *path = strtok_r(first.data, "\n", &rest); path; path = strtok_r(NULL, "\n", &rest)) {
 		if (is_exempt(path))
 			continue;
-		else if (!run_file_has(b, path))
+		if (run_file_has(b, path, &has, err) != 0)
+			goto done;
+		if (!has)
 			text_addf(out, "%s: only in %s\n", path, run_file_path(a));
 		else if (compare_dataset(a, b, path, out, err) != 0)
 			goto done;
-	for (char *path = strtok_r(second.data, "\n", &rest); path; path = strtok_r(NULL, "\n", &rest))
-		if (!is_exempt(path) && !run_file_has(a, path))
-			text_addf(out, "%s: only in %s\n", path, run_file_path(b));
+	}
+	if (tell_more(a, b, second.data, out, err) != 0)
+		goto done;
 	result = out->failed ? error_memory(err, out->capacity) : 0;
 done:
 	text_clean(&first);

@@ -42,16 +42,34 @@ static hid_t dataset_properties(void)
 	return list;
 }
 
-/* NULL when out of memory. */
-static struct image *image_new(struct error *err)
+/* HDF5 does not survive that its memory runs out: its stack of errors grows without end, it frees twice,
+ * or it calls exit (1.10.8). So see first that there is enough for what it will do with `bytes` of image
+ * (a copy of our own, its own, one more while that grows), and do not let it tidy up at exit. */
+static int prepare(size_t bytes, struct error *err)
 {
-	struct image *image = calloc(1, sizeof *image);
+	size_t need = 3 * bytes + (4U << 20);
+	void *room = malloc(need);
 
+	if (!room)
+		return error_memory(err, need);
+	free(room);
+	(void)H5dont_atexit();
+	(void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+	return 0;
+}
+
+/* NULL when out of memory. */
+static struct image *image_new(size_t bytes, struct error *err)
+{
+	struct image *image;
+
+	if (prepare(bytes, err) != 0)
+		return NULL;
+	image = calloc(1, sizeof *image);
 	if (!image) {
 		(void)error_memory(err, sizeof *image);
 		return NULL;
 	}
-	(void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 	image->file = -1;
 	image->creation = dataset_properties();
 	(void)good(image, image->creation);
@@ -68,13 +86,13 @@ static int image_begun(struct image *image, struct image **out, struct error *er
 	(void)H5Pclose(image->creation);
 	free(image);
 	*out = NULL;
-	return error_set(err, EX_SOFTWARE, "HDF5 cannot begin an image in memory");
+	return error_set(err, EX_SOFTWARE, "HDF5 cannot begin an image (out of memory?)");
 }
 
 int image_create(size_t payload, struct image **out, struct error *err)
 {
 	hid_t access, creation;
-	struct image *image = image_new(err);
+	struct image *image = image_new(payload, err);
 	char name[NAME_SIZE];
 
 	*out = NULL;
@@ -98,12 +116,14 @@ int image_create(size_t payload, struct image **out, struct error *err)
 }
 
 /* Not H5LTopen_file_image: it leaks a few bytes for every image (1.10.8). */
-int64_t image_open(unsigned char *bytes, size_t size, bool writable)
+int64_t image_open(unsigned char *bytes, size_t size, bool writable, struct error *err)
 {
-	hid_t access = H5Pcreate(H5P_FILE_ACCESS), file = -1;
+	hid_t access, file = -1;
 	char name[NAME_SIZE];
 
-	(void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+	if (prepare(size, err) != 0)
+		return -1;
+	access = H5Pcreate(H5P_FILE_ACCESS);
 	/* the property list takes a copy: `bytes` are only read */
 	if (H5Pset_fapl_core(access, 1U << 18, false) >= 0 &&
 		H5Pset_file_image(access, bytes, size) >= 0)
@@ -115,12 +135,12 @@ int64_t image_open(unsigned char *bytes, size_t size, bool writable)
 
 int image_reopen(unsigned char *bytes, size_t size, struct image **out, struct error *err)
 {
-	struct image *image = image_new(err);
+	struct image *image = image_new(size, err);
 
 	*out = NULL;
 	if (!image)
 		return -1;
-	image->file = image_open(bytes, size, true);
+	image->file = image_open(bytes, size, true, err);
 	return image_begun(image, out, err);
 }
 
@@ -281,7 +301,7 @@ int image_finish(
 	if (!image->failed && good(image, H5Fflush(image->file, H5F_SCOPE_GLOBAL)))
 		length = H5Fget_file_image(image->file, NULL, 0);
 	if (length < 0) {
-		error_set(err, EX_SOFTWARE, "HDF5 cannot make the image of a run file");
+		error_set(err, EX_SOFTWARE, "HDF5 cannot make the image of a run file (out of memory?)");
 		goto done;
 	}
 	*size = (size_t)length;
@@ -291,7 +311,8 @@ int image_finish(
 		goto done;
 	}
 	if (H5Fget_file_image(image->file, *bytes, *size) != length) {
-		error_set(err, EX_SOFTWARE, "HDF5 cannot hand out the image of a run file");
+		error_set(
+			err, EX_SOFTWARE, "HDF5 cannot hand out the image of a run file (out of memory?)");
 		goto done;
 	}
 	result = 0;

@@ -16,8 +16,9 @@ int image_create(size_t payload, struct image **out, struct error *err);
 /* Begin with a copy of the image of a run file, to change its attributes. EX_SOFTWARE. */
 int image_reopen(unsigned char *bytes, size_t size, struct image **out, struct error *err);
 
-/* Let HDF5 open a copy of an image. Returns its identifier (hid_t), negative when it is none. */
-int64_t image_open(unsigned char *bytes, size_t size, bool writable);
+/* Let HDF5 open a copy of an image. Returns its identifier (hid_t), negative when it is none; EX_SOFTWARE:
+ * there is no memory to try. */
+int64_t image_open(unsigned char *bytes, size_t size, bool writable, struct error *err);
 
 /* After one of these fails the others do nothing, and image_finish says so. */
 

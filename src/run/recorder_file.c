@@ -167,9 +167,11 @@ size_t recorder_size(const struct recorder *r)
 static int read_length(struct run_file *file, const char *path, size_t *length, struct error *err)
 {
 	struct dataset data;
+	bool has;
 
 	*length = 0;
-	if (!run_file_has(file, path))
+	TRY(run_file_has(file, path, &has, err));
+	if (!has)
 		return 0;
 	TRY(run_file_dataset(file, path, &data, err));
 	*length = data.extent[0];
@@ -242,6 +244,7 @@ static int read_place(struct recorder *r, struct recorder_place *place, const ch
 int recorder_read(struct recorder *r, struct run_file *file, bool at_mark, struct error *err)
 {
 	size_t rows;
+	bool has;
 
 	TRY(read_length(file, "/time", &rows, err));
 	TRY(recorder_reserve_rows(r, rows, err));
@@ -251,7 +254,8 @@ int recorder_read(struct recorder *r, struct run_file *file, bool at_mark, struc
 	TRY(read_profiles(r, file, err));
 	if (at_mark)
 		return read_place(r, &r->now, RUN_FILE_CONTINUATION, file, err);
-	if (run_file_has(file, RUN_FILE_CONTINUATION)) {
+	TRY(run_file_has(file, RUN_FILE_CONTINUATION, &has, err));
+	if (has) {
 		TRY(recorder_mark(r, err)); /* for the room */
 		TRY(read_place(r, &r->mark, RUN_FILE_CONTINUATION, file, err));
 	}

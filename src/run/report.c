@@ -61,6 +61,7 @@ static void read_content(const char *folder, struct run_report *report)
 		(void)snprintf(report->reason, sizeof report->reason, "%s", text_string(&reason));
 done:
 	run_file_close(file);
+	report->unknown |= ignored.code == EX_SOFTWARE;
 	text_clean(&warning);
 	text_clean(&config_text);
 	text_clean(&reason);
@@ -73,12 +74,15 @@ static void read_run_file(const char *folder, struct run_report *report)
 		RUN_STATE_INTERRUPTED, RUN_STATE_COMPLETE, RUN_STATE_FAILED};
 	struct error newest = {0}, previous = {0};
 	struct run_summary summary;
+	bool found = summarise(folder, RUN_FILE_NEWEST, &summary, &newest) == 0 ||
+				 summarise(folder, RUN_FILE_PREVIOUS, &summary, &previous) == 0;
 
-	if (summarise(folder, RUN_FILE_NEWEST, &summary, &newest) != 0 &&
-		summarise(folder, RUN_FILE_PREVIOUS, &summary, &previous) != 0) {
+	report->unknown |= newest.code == EX_SOFTWARE || previous.code == EX_SOFTWARE;
+	if (!found) {
 		if (newest.code == EX_NOINPUT && previous.code == EX_NOINPUT)
 			return;
 		report->state = RUN_STATE_DAMAGED;
+		report->blocked = newest.code == EX_IOERR || previous.code == EX_IOERR;
 		(void)error_format(
 			newest.code == EX_NOINPUT ? &previous : &newest, report->reason, sizeof report->reason);
 		return;
@@ -87,13 +91,14 @@ static void read_run_file(const char *folder, struct run_report *report)
 	report->time = summary.time;
 }
 
-static bool is_running(const char *folder)
+static bool is_running(const char *folder, struct run_report *report)
 {
 	struct error ignored = {0};
 	struct text path = {0};
-	bool held =
-		file_path(&path, folder, "run.lock", &ignored) == 0 && lock_is_held(text_string(&path));
+	bool known = file_path(&path, folder, "run.lock", &ignored) == 0;
+	bool held = known && lock_is_held(text_string(&path));
 
+	report->unknown |= !known;
 	text_clean(&path);
 	return held;
 }
@@ -107,10 +112,11 @@ void run_report_read(const char *folder, struct run_report *report)
 	report->state = RUN_STATE_PENDING;
 	if (!told && file_exists(folder) && !file_is_folder(folder)) {
 		report->state = RUN_STATE_DAMAGED;
+		report->blocked = true;
 		(void)snprintf(report->reason, sizeof report->reason, "%.900s is not a folder", folder);
 		return;
 	}
-	if (is_running(folder)) {
+	if (is_running(folder, report)) {
 		/* the run file is behind by up to a checkpoint; status.yaml by seconds */
 		report->state = RUN_STATE_RUNNING;
 		report->reason[0] = '\0';

@@ -35,6 +35,10 @@ static int compare_config(
 	if (config_parse(&config, text_string(&stored), stored.length, run_file_path(file), NULL, 0,
 			&unreadable) == 0)
 		config_differences(&config, attempt->config, &keys);
+	if (unreadable.code == EX_SOFTWARE) {
+		*err = unreadable;
+		goto done;
+	}
 	if (keys.length && config.time.end < attempt->config->time.end &&
 		config_is_alike(&config, attempt->config)) {
 		*earlier = config.time.end;
@@ -86,7 +90,10 @@ done:
 /* Files of before this was possible lack the state to go on from once they are complete. */
 static int can_continue(struct run_file *file, struct error *err)
 {
-	if (run_file_summary(file)->status != RUN_COMPLETE || run_file_has(file, RUN_FILE_CONTINUATION))
+	bool has;
+
+	TRY(run_file_has(file, RUN_FILE_CONTINUATION, &has, err));
+	if (has || run_file_summary(file)->status != RUN_COMPLETE)
 		return 0;
 	return error_at(err, EX_DATAERR, run_file_path(file), 0, 0,
 		"is complete with an earlier time.end, and holds no %s to go on from",
@@ -186,6 +193,25 @@ static int find_beginning(
 	return 0;
 }
 
+/* No generation is good. Only --retry starts anew, and what is damaged is kept under other names. */
+static int leave_damaged(
+	struct attempt *attempt, struct run_file **file, enum course *course, struct error *err)
+{
+	static const char *const names[][2] = {
+		{RUN_FILE_NEWEST, "run.damaged.h5"}, {RUN_FILE_PREVIOUS, "run.previous.damaged.h5"}};
+	size_t used = strlen(err->text);
+
+	if (!attempt->options->retry) {
+		(void)snprintf(err->text + used, sizeof err->text - used,
+			"; --retry starts it anew and keeps these files under other names");
+		return -1;
+	}
+	*err = (struct error){0};
+	for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+		TRY(file_rename(attempt->folder, names[i][0], names[i][1], err));
+	return find_beginning(attempt, file, course, err);
+}
+
 /* Look at what lies in the folder. With all but START `*file` is open. */
 static int find_course(
 	struct attempt *attempt, struct run_file **file, enum course *course, struct error *err)
@@ -204,6 +230,8 @@ static int find_course(
 		*err = (struct error){0};
 		return find_beginning(attempt, file, course, err);
 	}
+	if (result != 0 && err->code == EX_DATAERR)
+		return leave_damaged(attempt, file, course, err);
 	if (result != 0)
 		return -1;
 	TRY(read_own_past(attempt, *file, err));
@@ -329,12 +357,13 @@ done:
 int run_execute_model(const struct model *model, const struct config *config, const char *folder,
 	const struct run_options *options, struct error *err)
 {
+	struct lock lock = {-1};
 	struct attempt attempt = {.model = model,
 		.config = config,
 		.folder = folder,
 		.options = options,
+		.lock = &lock,
 		.cpu_begin = clock_cpu()};
-	struct lock lock = {-1};
 	struct text path = {0};
 	int result = -1;
 
@@ -342,8 +371,9 @@ int run_execute_model(const struct model *model, const struct config *config, co
 		file_path(&path, folder, "run.lock", err) != 0 ||
 		lock_take(&lock, text_string(&path), err) != 0)
 		goto done;
-	status_read_past(&attempt);
-	result = live(&attempt, err);
+	result = status_read_past(&attempt, err);
+	if (result == 0)
+		result = live(&attempt, err);
 done:
 	recorder_free(attempt.recorder);
 	free(attempt.mark.values);

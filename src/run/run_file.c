@@ -3,6 +3,7 @@
 #include <endian.h>
 #include <hdf5.h>
 #include <hdf5_hl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +16,7 @@ struct run_file {
 	unsigned char *bytes; /* the image and what is behind it */
 	size_t size;          /* of the image */
 	hid_t id;             /* the image, opened by HDF5 */
+	bool verified;        /* its digest is right, and it is as long as it says */
 	struct run_summary summary;
 	char *path;
 };
@@ -109,14 +111,13 @@ int run_file_open(const char *path, struct run_file **out, const char **warning,
 	}
 	if (file_read(path, &file->bytes, &size, err) != 0 || verify(file, size, &trailer, err) != 0)
 		goto failed;
-	file->id = image_open(file->bytes, file->size, false);
+	/* an image of ours whose digest is right is good: to fall back would throw it away */
+	file->verified = trailer && superblock_length(file->bytes, file->size) == file->size;
+	file->id = image_open(file->bytes, file->size, false, err);
 	if (file->id < 0) {
-		/* an image of ours whose digest is right is good: to fall back would throw it away */
-		bool ours = trailer && superblock_length(file->bytes, file->size) == file->size;
-
-		error_at(err, ours ? EX_SOFTWARE : EX_DATAERR, path, 0, 0,
-			ours ? "is whole, but HDF5 cannot open it (out of memory?)"
-				 : "is not a run file: HDF5 cannot open it");
+		error_at(err, file->verified ? EX_SOFTWARE : EX_DATAERR, path, 0, 0,
+			file->verified ? "is whole, but HDF5 cannot open it (out of memory?)"
+						   : "is not a run file: HDF5 cannot open it");
 		goto failed;
 	}
 	if (!trailer && summarise(file, err) != 0)
@@ -169,17 +170,39 @@ unsigned char *run_file_image(const struct run_file *file, size_t *size)
 	return file->bytes;
 }
 
+/* HDF5 cannot read `name`. Of a file whose digest is right that is no fault of the file: memory ran out. */
+static int unreadable(struct run_file *file, const char *what, const char *name, struct error *err)
+{
+	if (file->verified)
+		return error_set(err, EX_SOFTWARE, "HDF5 cannot read %s '%s' (out of memory?)", what, name);
+	return error_at(err, EX_DATAERR, file->path, 0, 0, "%s '%s' cannot be read", what, name);
+}
+
 static int attribute_error(struct run_file *file, const char *name, struct error *err)
 {
 	return error_at(err, EX_DATAERR, file->path, 0, 0,
 		"attribute '%s' is absent or not of the right type", name);
 }
 
+/* Negative with `err` set when the object has no such attribute, or none that HDF5 can open. */
+static hid_t open_attribute(
+	struct run_file *file, hid_t object, const char *name, struct error *err)
+{
+	htri_t there = H5Aexists(object, name);
+	hid_t id = there > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1;
+
+	if (there == 0)
+		(void)attribute_error(file, name, err);
+	else if (id < 0)
+		(void)unreadable(file, "attribute", name, err);
+	return id;
+}
+
 /* Add the text attribute of an object. */
 static int read_text(
 	struct run_file *file, hid_t object, const char *name, struct text *out, struct error *err)
 {
-	hid_t id = H5Aopen(object, name, H5P_DEFAULT), type = id < 0 ? -1 : H5Aget_type(id);
+	hid_t id = open_attribute(file, object, name, err), type = id < 0 ? -1 : H5Aget_type(id);
 	size_t size = type < 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0
 					  ? 0
 					  : H5Tget_size(type);
@@ -188,11 +211,13 @@ static int read_text(
 
 	if (size && !value) {
 		error_memory(err, size + 1);
-	} else if (!size || H5Aread(id, type, value) < 0) {
-		attribute_error(file, name, err);
-	} else {
+	} else if (id >= 0 && (type < 0 || (size && H5Aread(id, type, value) < 0))) {
+		unreadable(file, "attribute", name, err);
+	} else if (size) {
 		text_add(out, value);
 		result = out->failed ? error_memory(err, size) : 0;
+	} else {
+		attribute_error(file, name, err);
 	}
 	free(value);
 	if (type >= 0)
@@ -207,28 +232,39 @@ int run_file_text(struct run_file *file, const char *name, struct text *out, str
 	return read_text(file, file->id, name, out, err);
 }
 
-void run_file_dataset_text(
-	struct run_file *file, const char *path, const char *name, struct text *out)
+int run_file_dataset_text(
+	struct run_file *file, const char *path, const char *name, struct text *out, struct error *err)
 {
 	hid_t id = H5Dopen2(file->id, path, H5P_DEFAULT);
-	struct error absent = {0};
+	htri_t there = id < 0 ? -1 : H5Aexists(id, name);
+	int result = 0;
 
-	if (id < 0)
-		return;
-	if (H5Aexists(id, name) > 0)
-		(void)read_text(file, id, name, out, &absent);
-	(void)H5Dclose(id);
+	if (there > 0)
+		result = read_text(file, id, name, out, err);
+	else if (there < 0)
+		result = unreadable(file, "the attributes of dataset", path, err);
+	if (id >= 0)
+		(void)H5Dclose(id);
+	return result;
 }
 
 int run_file_real(struct run_file *file, const char *name, double *out, struct error *err)
 {
-	hid_t id = H5Aopen(file->id, name, H5P_DEFAULT), space = id < 0 ? -1 : H5Aget_space(id);
-	int result = 0;
+	hid_t id = open_attribute(file, file->id, name, err), space = id < 0 ? -1 : H5Aget_space(id),
+		  type = space < 0 ? -1 : H5Aget_type(id);
+	H5T_class_t kind = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
+	bool number = type >= 0 && (kind == H5T_FLOAT || kind == H5T_INTEGER) &&
+				  H5Sget_simple_extent_npoints(space) == 1;
+	int result = -1;
 
-	/* one number: HDF5 itself refuses to convert text to it */
-	if (space < 0 || H5Sget_simple_extent_npoints(space) != 1 ||
-		H5Aread(id, H5T_NATIVE_DOUBLE, out) < 0)
-		result = attribute_error(file, name, err);
+	if (type >= 0 && !number)
+		attribute_error(file, name, err);
+	else if (number && H5Aread(id, H5T_NATIVE_DOUBLE, out) >= 0)
+		result = 0;
+	else if (id >= 0)
+		unreadable(file, "attribute", name, err);
+	if (type >= 0)
+		(void)H5Tclose(type);
 	if (space >= 0)
 		(void)H5Sclose(space);
 	if (id >= 0)
@@ -237,21 +273,33 @@ int run_file_real(struct run_file *file, const char *name, double *out, struct e
 }
 
 /* Open a dataset of numbers and tell its shape. */
-static hid_t open_dataset(struct run_file *file, const char *path, struct dataset *shape)
+static hid_t open_dataset(
+	struct run_file *file, const char *path, struct dataset *shape, struct error *err)
 {
 	hsize_t extent[3] = {0};
-	hid_t id = H5Dopen2(file->id, path, H5P_DEFAULT);
-	hid_t space = id < 0 ? -1 : H5Dget_space(id);
-	bool right = space >= 0;
+	hid_t id, space;
+	bool has = false;
+	int rank;
 
-	shape->rank = right ? H5Sget_simple_extent_ndims(space) : -1;
-	right = right && shape->rank >= 0 && shape->rank <= 3 &&
-			H5Sget_simple_extent_dims(space, extent, NULL) >= 0;
+	shape->rank = -1;
+	if (run_file_has(file, path, &has, err) != 0)
+		return -1;
+	id = has ? H5Dopen2(file->id, path, H5P_DEFAULT) : -1;
+	space = id < 0 ? -1 : H5Dget_space(id);
+	rank = space < 0 ? -1 : H5Sget_simple_extent_ndims(space);
+	if (!has)
+		error_at(err, EX_DATAERR, file->path, 0, 0, "holds no dataset '%s'", path);
+	else if (rank > 3)
+		error_at(err, EX_DATAERR, file->path, 0, 0, "dataset '%s' has too many axes", path);
+	else if (rank < 0 || H5Sget_simple_extent_dims(space, extent, NULL) < 0)
+		unreadable(file, "dataset", path, err);
+	else
+		shape->rank = rank;
 	for (int i = 0; i < 3; i++)
 		shape->extent[i] = extent[i];
 	if (space >= 0)
 		(void)H5Sclose(space);
-	if (id >= 0 && !right) {
+	if (id >= 0 && shape->rank < 0) {
 		(void)H5Dclose(id);
 		id = -1;
 	}
@@ -275,18 +323,18 @@ int run_file_dataset(
 	struct run_file *file, const char *path, struct dataset *out, struct error *err)
 {
 	size_t count;
-	hid_t id = open_dataset(file, path, out);
+	hid_t id = open_dataset(file, path, out, err);
 	int result = -1;
 
 	out->values = NULL;
 	if (id < 0)
-		return error_at(err, EX_DATAERR, file->path, 0, 0, "holds no dataset '%s'", path);
+		return -1;
 	count = shape_count(out);
 	out->values = calloc(count + 1, sizeof *out->values); /* HDF5 leaves unwritten values alone */
 	if (!out->values)
 		error_memory(err, count * sizeof *out->values);
 	else if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out->values) < 0)
-		error_at(err, EX_DATAERR, file->path, 0, 0, "dataset '%s' cannot be read", path);
+		unreadable(file, "dataset", path, err);
 	else
 		result = 0;
 	(void)H5Dclose(id);
@@ -301,16 +349,16 @@ int run_file_fill(
 	struct run_file *file, const char *path, double *values, size_t count, struct error *err)
 {
 	struct dataset shape;
-	hid_t id = open_dataset(file, path, &shape);
+	hid_t id = open_dataset(file, path, &shape, err);
 	int result = 0;
 
 	if (id < 0)
-		return error_at(err, EX_DATAERR, file->path, 0, 0, "holds no dataset '%s'", path);
+		return -1;
 	if (shape_count(&shape) != count)
 		result = error_at(err, EX_DATAERR, file->path, 0, 0,
 			"dataset '%s' has %zu values instead of %zu", path, shape_count(&shape), count);
 	else if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
-		result = error_at(err, EX_DATAERR, file->path, 0, 0, "dataset '%s' cannot be read", path);
+		result = unreadable(file, "dataset", path, err);
 	(void)H5Dclose(id);
 	return result;
 }
@@ -325,19 +373,23 @@ static herr_t read_scale(hid_t dataset, unsigned axis, hid_t scale, void *length
 	return space < 0 ? -1 : H5Sclose(space);
 }
 
-size_t run_file_scale_length(struct run_file *file, const char *path, int axis)
+int run_file_scale_length(
+	struct run_file *file, const char *path, int axis, size_t *length, struct error *err)
 {
 	hid_t id = H5Dopen2(file->id, path, H5P_DEFAULT);
-	size_t length = 0;
+	htri_t scale = id < 0 ? -1 : H5DSis_scale(id);
+	int result = 0;
 
-	if (id < 0)
-		return 0;
-	if (H5DSis_scale(id) > 0)
-		(void)read_scale(id, 0, id, &length);
-	else
-		(void)H5DSiterate_scales(id, (unsigned)axis, NULL, read_scale, &length);
-	(void)H5Dclose(id);
-	return length;
+	*length = 0;
+	if (scale > 0)
+		result = read_scale(id, 0, id, length);
+	else if (scale == 0)
+		result = H5DSiterate_scales(id, (unsigned)axis, NULL, read_scale, length);
+	if (scale < 0 || result < 0)
+		result = unreadable(file, "the axes of dataset", path, err);
+	if (id >= 0)
+		(void)H5Dclose(id);
+	return result < 0 ? -1 : 0;
 }
 
 static herr_t read_scale_name(hid_t dataset, unsigned axis, hid_t scale, void *out)
@@ -365,13 +417,20 @@ void run_file_scale_name(struct run_file *file, const char *path, int axis, stru
 	(void)H5Dclose(id);
 }
 
-bool run_file_has(struct run_file *file, const char *path)
+/* H5Lexists fails where a group on the way is absent: so go down step by step. */
+int run_file_has(struct run_file *file, const char *path, bool *has, struct error *err)
 {
-	hid_t id = H5Oopen(file->id, path, H5P_DEFAULT);
+	char part[512];
+	size_t end = *path == '/';
+	htri_t there = 1;
 
-	if (id >= 0)
-		(void)H5Oclose(id);
-	return id >= 0;
+	while (there > 0 && path[end]) {
+		end += 1 + strcspn(path + end + 1, "/");
+		(void)snprintf(part, sizeof part, "%.*s", (int)end, path);
+		there = H5Lexists(file->id, part, H5P_DEFAULT);
+	}
+	*has = there > 0;
+	return there < 0 ? unreadable(file, "the name", path, err) : 0;
 }
 
 static herr_t add_name(hid_t group, const char *name, const H5L_info_t *info, void *out)
@@ -389,6 +448,6 @@ static herr_t add_name(hid_t group, const char *name, const H5L_info_t *info, vo
 int run_file_names(struct run_file *file, struct text *out, struct error *err)
 {
 	if (H5Lvisit(file->id, H5_INDEX_NAME, H5_ITER_INC, add_name, out) < 0)
-		return error_at(err, EX_DATAERR, file->path, 0, 0, "its datasets cannot be listed");
+		return unreadable(file, "the list of datasets of", "/", err);
 	return out->failed ? error_memory(err, out->capacity) : 0;
 }

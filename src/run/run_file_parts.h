@@ -29,14 +29,17 @@ unsigned char *run_file_image(const struct run_file *file, size_t *size);
 /* The path of every dataset, sorted, one a line. */
 int run_file_names(struct run_file *file, struct text *out, struct error *err);
 
-bool run_file_has(struct run_file *file, const char *path);
+/* Whether the file holds `path`. EX_SOFTWARE. */
+int run_file_has(struct run_file *file, const char *path, bool *has, struct error *err);
 
 /* The length of the scale that axis `axis` of a dataset has; 0 without a scale. */
-size_t run_file_scale_length(struct run_file *file, const char *path, int axis);
+int run_file_scale_length(
+	struct run_file *file, const char *path, int axis, size_t *length, struct error *err);
 
-/* Text attribute `name` ("units", "long_name") of a dataset; nothing is added where it has none. */
-void run_file_dataset_text(
-	struct run_file *file, const char *path, const char *name, struct text *out);
+/* Text attribute `name` ("units", "long_name") of a dataset; nothing is added where it has none.
+ * EX_DATAERR, EX_SOFTWARE. */
+int run_file_dataset_text(
+	struct run_file *file, const char *path, const char *name, struct text *out, struct error *err);
 
 /* The name of the scale that axis `axis` of a dataset has; nothing is added without one. */
 void run_file_scale_name(struct run_file *file, const char *path, int axis, struct text *out);

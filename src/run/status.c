@@ -64,8 +64,9 @@ void status_note_end(struct attempt *attempt, enum run_state state, const char *
 	note(attempt, attempt->number, run_state_name(state), text_excerpt(reason, line, sizeof line));
 }
 
-/* The nodes of status.yaml; false where there is none that can be read. Clean them in every case. */
-static bool load(const char *folder, struct node *root)
+/* The nodes of status.yaml; false where there is none that can be read, with EX_SOFTWARE in `err` where
+ * that is for want of memory. Clean them in every case. */
+static bool load(const char *folder, struct node *root, struct error *err)
 {
 	struct error ignored = {0};
 	struct text path = {0};
@@ -74,35 +75,63 @@ static bool load(const char *folder, struct node *root)
 	*root = (struct node){0};
 	found = file_path(&path, folder, NAME, &ignored) == 0 &&
 			yaml_load(root, text_string(&path), &ignored) == 0 && root->kind == NODE_MAPPING;
+	if (ignored.code == EX_SOFTWARE)
+		*err = ignored;
 	text_clean(&path);
 	return found;
 }
 
-void status_read_past(struct attempt *attempt)
+static void read_real(const struct node *root, const char *key, double *value)
+{
+	const struct node *node = node_find(root, key);
+
+	if (node && node->text)
+		(void)text_to_real(node->text, value);
+}
+
+static void read_count(const struct node *root, const char *key, int *count)
+{
+	double value = *count;
+
+	read_real(root, key, &value);
+	if (value >= 0 && value < 1e9)
+		*count = (int)value;
+}
+
+static void read_counts(const struct node *root, struct run_report *report)
+{
+	read_count(root, "attempts", &report->attempts);
+	read_count(root, "failures", &report->failures);
+}
+
+int status_read_past(struct attempt *attempt, struct error *err)
 {
 	struct run_report before = {0};
 	const struct node *state;
 	struct node root;
 
-	(void)status_read(attempt->folder, &before);
-	attempt->number = before.attempts + 1;
-	attempt->failures = before.failures;
-	if (load(attempt->folder, &root)) {
+	if (load(attempt->folder, &root, err)) {
+		read_counts(&root, &before);
+		attempt->failures = before.failures;
 		read_ended(&root, &attempt->ended);
 		state = node_find(&root, "state");
 		if (state && state->text && !strcmp(state->text, run_state_name(RUN_STATE_RUNNING)))
 			note(attempt, before.attempts, "ended without a word",
 				"killed, or the machine was lost");
 	}
+	attempt->number = before.attempts + 1;
 	node_clean(&root);
+	return err->code ? -1 : 0;
 }
 
 void run_report_history(const char *folder, struct text *out)
 {
+	struct error err = {0};
 	struct node root;
 
-	if (load(folder, &root))
+	if (load(folder, &root, &err))
 		read_ended(&root, out);
+	out->failed |= err.code == EX_SOFTWARE;
 	node_clean(&root);
 }
 
@@ -138,32 +167,15 @@ void status_write(struct attempt *attempt, enum run_state state, const char *rea
 	text_clean(&out);
 }
 
-static void read_real(const struct node *root, const char *key, double *value)
-{
-	const struct node *node = node_find(root, key);
-
-	if (node && node->text)
-		(void)text_to_real(node->text, value);
-}
-
-static void read_count(const struct node *root, const char *key, int *count)
-{
-	double value = *count;
-
-	read_real(root, key, &value);
-	if (value >= 0 && value < 1e9)
-		*count = (int)value;
-}
-
 bool status_read(const char *folder, struct run_report *report)
 {
+	struct error err = {0};
 	const struct node *reason;
 	struct node root;
-	bool found = load(folder, &root);
+	bool found = load(folder, &root, &err);
 
 	if (found) {
-		read_count(&root, "attempts", &report->attempts);
-		read_count(&root, "failures", &report->failures);
+		read_counts(&root, report);
 		read_real(&root, "time", &report->time);
 		read_real(&root, "end", &report->end);
 		read_real(&root, "cpu_seconds", &report->cpu_seconds);
@@ -172,6 +184,7 @@ bool status_read(const char *folder, struct run_report *report)
 		if (reason && reason->text)
 			(void)snprintf(report->reason, sizeof report->reason, "%s", reason->text);
 	}
+	report->unknown |= err.code == EX_SOFTWARE;
 	node_clean(&root);
 	return found;
 }

@@ -8,8 +8,8 @@
 void status_write(struct attempt *attempt, enum run_state state, const char *reason);
 
 /* Take up what status.yaml tells of the attempts before this one. An attempt that it still calls running
- * ended without a word. */
-void status_read_past(struct attempt *attempt);
+ * ended without a word. EX_SOFTWARE. */
+int status_read_past(struct attempt *attempt, struct error *err);
 
 /* Note how this attempt ends, before the last status_write. */
 void status_note_end(struct attempt *attempt, enum run_state state, const char *reason);

@@ -88,6 +88,7 @@ static void print_markdown(const struct table *table, struct text *out)
 
 		join_heads(&table->columns[c], &heads);
 		add_markdown(out, text_string(&heads));
+		out->failed |= heads.failed;
 		text_clean(&heads);
 	}
 	text_add(out, "\n|");
@@ -100,6 +101,7 @@ static void print_markdown(const struct table *table, struct text *out)
 
 			format_cell(&table->columns[c], &table->cells[row * table->column_count + c], &cell);
 			add_markdown(out, text_string(&cell));
+			out->failed |= cell.failed;
 			text_clean(&cell);
 		}
 	}
@@ -135,6 +137,7 @@ static void add_csv_heads(const struct table *table, struct text *out)
 		text_add(&heads, ", \u00b1");
 		if (table->columns[c].spread)
 			add_field(out, text_string(&heads), false);
+		out->failed |= heads.failed;
 		text_clean(&heads);
 	}
 	text_add(out, "\r\n");
@@ -153,6 +156,7 @@ static void add_csv_cell(
 	} else {
 		format_cell(column, cell, &words);
 		add_field(out, text_string(&words), first);
+		out->failed |= words.failed;
 		text_clean(&words);
 	}
 	if (column->spread)

@@ -63,7 +63,7 @@ static int group_width(const int *widths, size_t c, size_t end)
 	return width;
 }
 
-static void fit_cells(const struct table *table, int *widths)
+static void fit_cells(const struct table *table, int *widths, struct text *out)
 {
 	for (size_t i = 0; i < table->row_count * table->column_count; i++) {
 		size_t c = i % table->column_count;
@@ -72,6 +72,7 @@ static void fit_cells(const struct table *table, int *widths)
 		format_cell(&table->columns[c], &table->cells[i], &cell);
 		if (width_of(text_string(&cell)) > widths[c])
 			widths[c] = width_of(text_string(&cell));
+		out->failed |= cell.failed;
 		text_clean(&cell);
 	}
 }
@@ -136,6 +137,7 @@ static void print_rows(const struct table *table, const int *widths, struct text
 
 			format_cell(&table->columns[c], &table->cells[row * table->column_count + c], &cell);
 			add_padded(out, text_string(&cell), widths[c], table->columns[c].label, false);
+			out->failed |= cell.failed;
 			text_clean(&cell);
 		}
 		end_line(out);
@@ -151,7 +153,7 @@ void format_text(const struct table *table, struct text *out)
 		out->failed = true;
 		return;
 	}
-	fit_cells(table, widths);
+	fit_cells(table, widths, out);
 	fit_heads(table, lines, widths);
 	text_addf(out, "%s\n\n", text_string(&table->title));
 	print_heads(table, lines, widths, out);

@@ -26,9 +26,10 @@ int measured_make(struct measured *measured, const struct layout *layout, struct
 
 void measured_clean(struct measured *measured);
 
-/* Open a run's file if the run is complete; NULL if not: then `missing` says why, after `what` and the
- * run's name. `warnings` gets what is not as it should be. Either may be NULL. */
-struct run_file *measured_open(const struct experiment_run *run, const char *what,
-	struct text *missing, struct text *warnings);
+/* Open a run's file if the run is complete; `*out` is NULL if not: then `missing` says why, after `what`
+ * and the run's name. `warnings` gets what is not as it should be. Either may be NULL. EX_SOFTWARE out of
+ * memory, which says nothing about the run. */
+int measured_open(const struct experiment_run *run, const char *what, struct text *missing,
+	struct text *warnings, struct run_file **out, struct error *err);
 
 #endif

@@ -32,6 +32,7 @@ static void add_attributes(struct provenance *provenance, struct variants *varia
 
 		if (!run_file_text(file, names[i], &one, &err))
 			text_addf(&all, "%s%s", all.length ? ", " : "", text_string(&one));
+		provenance->failed |= err.code == EX_SOFTWARE;
 		text_clean(&one);
 	}
 	provenance->failed |= all.failed;

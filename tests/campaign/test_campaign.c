@@ -102,6 +102,28 @@ static void a_crash_fails_the_run_and_the_others_go_on(void **state)
 	experiment_clean(&e);
 }
 
+static void a_run_that_cannot_use_its_files_has_their_code_and_the_others_go_on(void **state)
+{
+	static const struct {
+		const char *script;
+		int code;
+	} ends[] = {{"#!/bin/sh\nexit 65\n", EX_DATAERR}, {"#!/bin/sh\nexit 73\n", EX_CANTCREAT},
+		{"#!/bin/sh\ncase $2 in *layers-4*) exit 74 ;; esac\nexit 1\n", EX_IOERR}};
+
+	(void)state;
+	for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+		struct experiment e;
+		struct campaign c = execute(&e, ends[i].script, NULL);
+
+		assert_int_equal(c.tasks[0].state, TASK_FAILED);
+		assert_int_equal(c.tasks[1].state, TASK_FAILED);
+		assert_int_equal(c.fault.code, 0);
+		assert_int_equal(campaign_code(&c), ends[i].code);
+		campaign_clean(&c);
+		experiment_clean(&e);
+	}
+}
+
 static void a_killed_run_can_be_resumed(void **state)
 {
 	struct experiment e;
@@ -168,7 +190,7 @@ static void interrupt_ourselves(void *context, const struct campaign *campaign)
 static void the_first_interrupt_stops_the_runs_and_the_second_ends_the_wait(void **state)
 {
 	int interrupts = 0;
-	const struct campaign_watch watch = {NULL, interrupt_ourselves, &interrupts};
+	const struct campaign_watch watch = {.tick = interrupt_ourselves, .context = &interrupts};
 	struct experiment e;
 	struct campaign c = execute(&e,
 		"#!/bin/sh\n"
@@ -267,7 +289,7 @@ static void a_cancel_stops_this_campaign_and_no_later_one(void **state)
 								 "[ -e told ] || while :; do sleep 0.05; done\n"
 								 "exit 1\n";
 	bool cancelled = false;
-	const struct campaign_watch watch = {NULL, cancel_when_ready, &cancelled};
+	const struct campaign_watch watch = {.tick = cancel_when_ready, .context = &cancelled};
 	struct experiment e;
 	struct campaign c = execute(&e, script, &watch);
 
@@ -303,6 +325,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		TEST(a_crash_fails_the_run_and_the_others_go_on),
+		TEST(a_run_that_cannot_use_its_files_has_their_code_and_the_others_go_on),
 		TEST(a_killed_run_can_be_resumed),
 		TEST(a_run_that_claims_to_be_complete_and_is_not_has_failed),
 		TEST(a_run_that_is_refused_time_after_time_is_left),

@@ -471,7 +471,7 @@ static void what_is_wrong_is_refused_with_its_place(void **state)
 		{"bse: base.yaml\n", "study.yaml:1:1: unknown key 'bse'; did you mean 'base'?"},
 		{"title: x\nzzzzzzzz: 1\n",
 			"study.yaml:2:1: unknown key 'zzzzzzzz'; known are: title, source, base, set, runs, "
-			"repeat, timing, tables, plots, observations, published"},
+			"repeat, timing, tables, plots, observations, published, slurm"},
 		{"base: base.yaml\nbase: base.yaml\n",
 			"study.yaml:2:1: duplicate key 'base'; it is already on line 1"},
 		{"title: x\n", "study.yaml:1:1: the experiment lacks its 'base' config"},
@@ -502,7 +502,7 @@ static void what_is_wrong_is_refused_with_its_place(void **state)
 			"study.yaml:2:14: slope: 22 has no unit; an angle must say deg or rad, as in 22 deg"},
 		{"base: base.yaml\nruns: [{layers: }]\n", "study.yaml:2:17: layers: the value is missing"},
 		{"base: none.yaml\n",
-			"study.yaml:1:7: base: cannot read none.yaml: No such file or directory"},
+			"study.yaml:1:7: base: none.yaml cannot be read: No such file or directory"},
 		{"base: base.yaml\ntables: [{rows: layers, metric: steps}]\n",
 			"study.yaml:2:10: this table lacks its 'name'"},
 		{"base: base.yaml\ntables: [{name: t, metric: steps}]\n",

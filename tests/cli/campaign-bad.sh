@@ -26,6 +26,8 @@ base: none.yaml
 runs: [{layers: [4, 2.5]}]
 runs: [{layer: 4}]
 runs: [{layers: 4, n_ini_guess: 3}]
+runs: [{layers: [{a: 4, b: 8}]}]
+runs: [{output.profiles_at: [{a: 0.1}]}]
 set: {time.end: 5 m}
 tables: [{name: t, rows: layrs, metric: iterations}]
 tables: [{name: t, rows: layers, metric: iteration}]

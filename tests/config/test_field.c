@@ -66,7 +66,9 @@ static void members_and_defaults_are_filled(void **state)
 	assert_int_equal(pot.glaze.colour, 2);
 	assert_int_equal(pot.count, 1);
 	assert_int_equal(pot.fired_at.count, 2);
-	assert_true(pot.fired_at.values[0] == -1 && pot.fired_at.values[1] == 120);
+	assert_non_null(pot.fired_at.values);
+	assert_true(
+		pot.fired_at.values && pot.fired_at.values[0] == -1 && pot.fired_at.values[1] == 120);
 }
 
 static void a_dotted_key_stands_for_nested_ones(void **state)

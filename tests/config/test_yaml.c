@@ -29,6 +29,21 @@ static void expect_refusal(const char *text, size_t length, const char *message)
 	assert_null(root.items);
 }
 
+static void a_byte_order_mark_before_a_key_is_no_part_of_it(void **state)
+{
+	const char *text = "\xEF\xBB\xBFlayers: 10\n";
+	struct node root;
+	struct error err = {0};
+	const struct node *node;
+
+	(void)state;
+	assert_int_equal(yaml_parse(&root, text, strlen(text), "a.yaml", &err), 0);
+	node = node_find(&root, "layers");
+	assert_non_null(node);
+	assert_int_equal(node->key_column, 1);
+	node_clean(&root);
+}
+
 static void a_mapping_keeps_order_places_and_kinds(void **state)
 {
 	const char *text =
@@ -226,6 +241,7 @@ static void an_endless_file_is_refused(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(a_byte_order_mark_before_a_key_is_no_part_of_it),
 		cmocka_unit_test(a_mapping_keeps_order_places_and_kinds),
 		cmocka_unit_test(bad_documents_are_refused_with_their_place),
 		cmocka_unit_test(a_nul_byte_is_refused),

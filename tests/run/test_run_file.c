@@ -43,20 +43,22 @@ static void flip_byte(int fd, size_t at, unsigned char mask)
 
 static void a_changed_byte_anywhere_is_seen(void **state)
 {
-	size_t size = make_run(), at = 0;
+	enum { FIRST = 4096, RANDOM = 10000 };
+	size_t size = make_run();
 	int fd = open(in_folder("a/run.h5"), O_RDWR);
 	uint32_t random = 1;
 
 	(void)state;
 	assert_true(fd >= 0 && size > 8192);
-	while (at < size) {
-		random = random * 1664525U + 1013904223U;
-		flip_byte(fd, at, (unsigned char)(1U << (random >> 29)));
+	for (size_t i = 0; i < FIRST + RANDOM; i++) {
+		size_t at = i < FIRST ? i : (random >> 4) % size;
+		unsigned char mask = (unsigned char)(1U << (random & 7));
+
+		flip_byte(fd, at, mask);
 		if (try_open("a/run.h5", NULL) != EX_DATAERR)
-			fail_msg("byte %zu of %zu can be changed unseen", at, size);
-		flip_byte(fd, at, (unsigned char)(1U << (random >> 29)));
-		/* every byte of the first 4 KiB, some hundreds behind it */
-		at += at < 4096 ? 1 : 1 + (random >> 8) % 97;
+			fail_msg("bit %u of byte %zu of %zu can be changed unseen", mask, at, size);
+		flip_byte(fd, at, mask);
+		random = random * 1664525U + 1013904223U;
 	}
 	assert_int_equal(try_open("a/run.h5", NULL), 0);
 	assert_int_equal(close(fd), 0);
@@ -265,6 +267,32 @@ static void time_that_does_not_grow_is_found(void **state)
 	assert_breach("/time: does not grow at [3]: 0");
 }
 
+static void a_trailer_that_tells_otherwise_is_found(void **state)
+{
+	const struct file_place place = {.folder = in_folder("a"), .name = "run.h5"};
+	struct run_summary summary;
+	struct error err = {0};
+	unsigned char *bytes;
+	size_t size;
+
+	(void)state;
+	(void)make_run();
+	assert_int_equal(run_file_peek(in_folder("a/run.h5"), &summary, &err), 0);
+	assert_int_equal(file_read(in_folder("a/run.h5"), &bytes, &size, &err), 0);
+	summary.step++;
+	summary.time = 0.05;
+	summary.status = RUN_FAILED;
+	size -= TRAILER_SIZE;
+	trailer_write(&summary, bytes, size, bytes + size);
+	assert_int_equal(
+		file_replace(&place, &(struct file_part){bytes, size + TRAILER_SIZE}, 1, &err), 0);
+	free(bytes);
+	assert_breach("status: is 'complete' and the trailer says 'failed'");
+	assert_breach("/checkpoint/step: is ");
+	assert_breach("/checkpoint/time: is 0.1");
+	assert_breach("/time: ends at 0.1");
+}
+
 static void mass_that_is_lost_is_found(void **state)
 {
 	(void)state;
@@ -338,6 +366,7 @@ int main(void)
 		TEST(what_is_absent_is_an_error_with_its_name),
 		TEST(the_content_of_a_run_makes_sense),
 		TEST(time_that_does_not_grow_is_found),
+		TEST(a_trailer_that_tells_otherwise_is_found),
 		TEST(mass_that_is_lost_is_found),
 		TEST(mass_that_is_no_number_is_found),
 		TEST(a_different_bit_is_told_with_its_place),
