@@ -1,7 +1,7 @@
 # What the batch script does with signals, with commands in the place of Slurm's: USR1 stops the run and
 # puts it back into the queue, TERM of a cancelled job does not, and the third time it is complete.
 source "$TALUS_ROOT/tests/cli/campaign-parts.bash"
-printf 'base: long.yaml\nset: {time.cfl: 0.02}\nruns: [{layers: [8, 7]}]\n' >study.yaml
+printf 'base: long.yaml\nruns: [{layers: [8, 7]}]\n' >study.yaml
 mkdir shim
 for name in sbatch scontrol squeue; do
 	printf '#!/bin/bash\necho "%s $*" >>"$CALLS"\n' $name >shim/$name && chmod +x shim/$name

@@ -23,5 +23,5 @@ shim squeue 'cat queue/* 2>/dev/null; echo "7_1 RUNNING other None"; echo "8 PEN
 
 slurm_mask()
 {
-	sed -E "s/(talus-study-)[0-9a-f]{8}/\1NAME/g; s/^folder='[^']*'/folder=.../; s/^program=.*/program=.../; s/-[0-9a-f]{8}(\$|\t)/-HASH\1/g"
+	sed -E "s/(talus-study-)[0-9a-f]{8}/\1NAME/g; s/^folder=.*/folder=.../; s/^program=.*/program=.../; s/-[0-9a-f]{8}(\$|\t)/-HASH\1/g"
 }
