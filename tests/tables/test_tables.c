@@ -395,7 +395,7 @@ static void errors_against_a_finer_run_are_those_of_its_means(void **state)
 	(void)state;
 	memcpy(reference.h[1], (double[]){1, 2, 3, 4}, sizeof reference.h[1]);
 	for (size_t k = 0; k < 16; k++)
-		reference.u[k] = (double)(k / 4) + 10 * (double)(k % 4);
+		reference.u[k] = (double)(k - k % 4) / 4 + 10 * (double)(k % 4);
 	/* h off by 1/4 in both cells of 2 m, u by 1 and 2: 2 (1.75 + 2 3.25) = 16.5 */
 	memcpy(coarse.h, (double[]){9, 9, 1.75, 3.25}, sizeof coarse.h[0]);
 	memcpy(coarse.u, (double[]){7.5, 24.5}, 2 * sizeof *coarse.u);
