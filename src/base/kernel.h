@@ -11,7 +11,7 @@
 #include <stddef.h>
 
 /* Before a function: one copy for AVX-512, one for AVX2, one for any x86-64. Under sanitizers the plain
- * copy alone: they are not ready when the choice is made. */
+ * copy alone: they are not ready when the choice is made; with clang too. */
 #if defined __GNUC__ && !defined __clang__ && defined __x86_64__ &&                                \
 	!defined __SANITIZE_ADDRESS__ && !defined __SANITIZE_THREAD__ && !defined TALUS_PLAIN_KERNELS
 #define KERNEL __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))

@@ -149,7 +149,7 @@ static const struct field fields[] = {
 
 	GROUP(time, 0, "how far and in what steps"),
 	REAL(time.end, LEADING, "s", "3 s", "(0, inf)", "simulated time at which the run is complete"),
-	REAL(time.cfl, DRY | LEADING, "1", "0.7", "(0, 1]", "share of the largest stable step that is taken"),
+	REAL(time.cfl, DRY | LEADING, "1", "0.7", "(0, 1]", "share of the largest stable step that is taken; hydrostatic fronts need 0.1 to 0.3"),
 	CHOICE("time.wave_speed", time.wave_speed, DRY, "fastest", wave_speeds,
 		"velocity that limits the step: fastest layer, or mean over the layers (P1 eq. 14)"),
 
@@ -175,8 +175,9 @@ static const struct field fields[] = {
 		"first guess of the fluctuation where n_ini_guess is 0: zero, or that of the previous step"),
 	CHOICE("pressure_solver.criterion", pressure_solver.criterion, DRY, "residual", criteria,
 		"what stops the iteration: the true residual, or the increment of a sweep (P1)"),
-	REAL(pressure_solver.residual, DRY, "1", "1e-8", "(0, 1)",
-		"with criterion residual: the relative residual |b - A x|/|b| at which it stops"),
+	REAL(pressure_solver.residual, DRY, "1", "1e-8", "[1e-12, 1)",
+		"with criterion residual: the relative residual |b - A x|/|b| at which it stops; smaller "
+		"ones are lost in rounding"),
 	CHOICE("pressure_solver.norm", pressure_solver.norm, DRY, "l2", norms,
 		"norm of a sweep's increment that stops the iteration"),
 	REAL(pressure_solver.tolerance, DRY, "m2/s2", "1e-6 m2/s2", "(0, inf)",

@@ -124,7 +124,10 @@ int dry_pressure(struct model_state *s, double dt, struct error *err)
 		start(s, system);
 	}
 	TRY(solve(s, &s->full, &s->iterations, err));
-	s->method = pressure_solver_chosen(s->solver, s->full.memory);
+	/* a system without a right side is solved by nobody */
+	s->method = s->iterations == 0 && s->residual == 0
+					? 0
+					: pressure_solver_chosen(s->solver, s->full.memory);
 	for (int a = 0; a < s->layers; a++) {
 		double *q = s->q + (size_t)a * faces, *dq = s->dq + (size_t)a * faces;
 		const double *x = pressure_system_x(system, a);

@@ -8,7 +8,8 @@
 #include "linear/pressure_solver.h"
 
 /* The direct method keeps a dense matrix per column: not beyond this much memory, and not for more layers
- * than conjugate gradients are always cheaper for. */
+ * than it has rows in registers for. (On fine grids it would still save up to 60 % of a step near the
+ * face of a dam with 48 to 64 layers, and lose as much with 64 on coarse ones.) */
 #define DIRECT_BYTES (256.0 * 1024 * 1024)
 #define DIRECT_LAYERS 40
 
@@ -92,7 +93,7 @@ static int try_gradients(
 static int solve(struct pressure_system *system, const struct stopping_rule *rule, void *memory)
 {
 	struct memory *m = memory;
-	int tried = 0, done;
+	int tried = 0; /* iterations of a trial, negative */
 
 	if (m->kept[LEFT] == 0) {
 		tried = try_gradients(m, system, rule);
@@ -103,8 +104,7 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 		m->kept[LEFT]--;
 	}
 	m->method = METHOD_BLOCK_DIRECT;
-	done = block_direct.solve(system, rule, m->direct);
-	return done < 0 ? done + tried : done - tried;
+	return block_direct.solve(system, rule, m->direct) - tried;
 }
 
 static double *kept(void *memory, size_t *count)

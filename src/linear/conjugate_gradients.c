@@ -14,11 +14,9 @@ struct memory {
 	struct columns columns;
 	int threads;
 	double *x, *residual, *direction; /* columns, in units of |b| */
-	double
-		*product;  /* columns: A times the direction, and in between the preconditioned residual */
-	double *sums;  /* [2][groups or blocks, whichever is more] */
-	double *terms; /* [threads][4][stride] */
-	float *modes;  /* columns of modes */
+	double *product; /* columns: A times the direction; in between the preconditioned residual */
+	double *sums;    /* [groups or blocks, whichever is more] */
+	float *modes;    /* columns of modes */
 	double *block;
 	double scale;       /* |b| */
 	double alpha, beta; /* of the pass at hand */
@@ -317,8 +315,12 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 		stop = stop || (rule->criterion == CRITERION_RESIDUAL && square <= limit);
 		if (stop || square == 0)
 			break;
-		if (isnan(square) || done == rule->max_iterations)
+		if (isnan(square))
 			return done ? -done : -1;
+		if (done == rule->max_iterations) {
+			pass(m, system, groups, finish); /* as far as it came */
+			return done ? -done : -1;
+		}
 		pass(m, system, blocks, solve_modes);
 		energy = total(m->sums, blocks);
 		m->beta = last > 0 ? energy / last : 0;

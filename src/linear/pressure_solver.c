@@ -43,13 +43,14 @@ int pressure_solver_solve(const struct pressure_solver *solver, struct pressure_
 	const struct stopping_rule *rule, void *memory, double *residual)
 {
 	enum { ROUNDS = 4 };
+	struct stopping_rule held = *rule;
 	int total = 0;
 
 	*residual = 0;
 	if (is_at_rest(system))
 		return 0;
 	for (int round = 0; round < ROUNDS; round++) {
-		int done = solver->solve(system, rule, memory);
+		int done = solver->solve(system, &held, memory);
 
 		*residual = pressure_system_residual(system);
 		total += abs(done);
@@ -57,6 +58,8 @@ int pressure_solver_solve(const struct pressure_solver *solver, struct pressure_
 			return -total;
 		if (rule->criterion != CRITERION_RESIDUAL || *residual <= rule->residual)
 			return total;
+		held.residual *= 0.5; /* the method's own count was too good */
+		held.max_iterations = rule->max_iterations > total ? rule->max_iterations - total : 1;
 	}
 	return -total;
 }

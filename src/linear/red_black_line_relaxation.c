@@ -322,8 +322,10 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 		if (rule->criterion == CRITERION_RESIDUAL ? even + left * odd <= limit
 												  : error < rule->tolerance)
 			break;
-		if (done == rule->max_iterations || isnan(even) || isnan(error))
+		if (done == rule->max_iterations || isnan(even) || isnan(error)) {
+			give_solution(m, system); /* as far as it came */
 			return done ? -done : -1;
+		}
 		error = backward_pass(m, system->weight, rule->norm, 0, 0);
 		odd = forward_pass(m, 1);
 		error = backward_pass(m, system->weight, rule->norm, 1, error);

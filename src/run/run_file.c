@@ -376,11 +376,15 @@ static herr_t read_scale(hid_t dataset, unsigned axis, hid_t scale, void *length
 int run_file_scale_length(
 	struct run_file *file, const char *path, int axis, size_t *length, struct error *err)
 {
-	hid_t id = H5Dopen2(file->id, path, H5P_DEFAULT);
-	htri_t scale = id < 0 ? -1 : H5DSis_scale(id);
+	hid_t id;
+	htri_t scale;
 	int result = 0;
 
 	*length = 0;
+	if (H5Lexists(file->id, path, H5P_DEFAULT) == 0)
+		return 0;
+	id = H5Dopen2(file->id, path, H5P_DEFAULT);
+	scale = id < 0 ? -1 : H5DSis_scale(id);
 	if (scale > 0)
 		result = read_scale(id, 0, id, length);
 	else if (scale == 0)
