@@ -129,7 +129,7 @@ static void add_array(struct text *arrays, const char *job)
 		text_add(arrays, number);
 }
 
-/* The task that this one goes on from once it has ended, if that lies ahead; else NULL. */
+/* The task that this one goes on from, if the end of that lies ahead; else NULL. */
 static struct task *task_ahead(const struct campaign *campaign, const struct task *task)
 {
 	struct task *before;
@@ -137,7 +137,10 @@ static struct task *task_ahead(const struct campaign *campaign, const struct tas
 	if (task->report.state != RUN_STATE_PENDING || task->before == SIZE_MAX)
 		return NULL;
 	before = &campaign->tasks[task->before];
-	return before->state == TASK_WAITING || before->state == TASK_QUEUED ? before : NULL;
+	return before->state == TASK_WAITING || before->state == TASK_QUEUED ||
+				   before->state == TASK_ELSEWHERE
+			   ? before
+			   : NULL;
 }
 
 /* By depth, so that an array holds none that waits for another in it. */

@@ -352,8 +352,7 @@ static int retry_main(
 
 #define OPTIONS_OF_POOL                                                                            \
 	"  -j, --jobs N          runs at a time; an experiment with `timing: true` makes it 1\n"       \
-	"                        (default: the number of processors; slurm: the throttle of its "      \
-	"section)\n"                                                                                   \
+	"                        (default: the number of processors; slurm: `throttle` of `slurm:`)\n" \
 	"  -n, --dry-run         print what would be done and change nothing (default: off)\n"         \
 	"  -t, --timeout SPAN    stop a run after so much wall clock, such as 90 s or 2 h, with its\n" \
 	"                        checkpoint written (default: never)\n"                                \
@@ -361,8 +360,7 @@ static int retry_main(
 	"      --order ORDER     longest: the longest expected run first; given: as in the "           \
 	"experiment,\n"                                                                                \
 	"                        as those with `timing: true` always are (default: longest)\n"         \
-	"  -e, --executor NAME   how runs are executed: local, as processes of this machine, or "      \
-	"slurm,\n"                                                                                     \
+	"  -e, --executor NAME   how runs are executed: local, as processes of this machine; slurm,\n" \
 	"                        as job arrays of a cluster, without -t and -m (default: local)\n"
 
 const struct campaign_action campaign_action_run = {
@@ -392,9 +390,9 @@ const struct campaign_action campaign_action_retry = {
 		"example: talus campaign retry experiments/quickstart.yaml\n\n"
 		"RUN is a name as `status` prints it, the beginning of one, or digits of its hash.\n\n"
 		"options:\n" OPTIONS_OF_POOL "  -r, --retry N         start each anew up to N times "
-		"(default: 1)\n" CAMPAIGN_OPTIONS_OF_ALL "exit: 0 these runs are complete or in the queue, "
-		"1 one failed again, 65 bad experiment or\n"
-		"no such run, 69 Slurm is not there or refuses, 75 stopped and resumable\n",
+		"(default: 1)\n" CAMPAIGN_OPTIONS_OF_ALL
+		"exit: 0 these runs are complete or in the queue, 1 one failed again, 65 bad\n"
+		"experiment or no such run, 69 Slurm is not there or refuses, 75 stopped and resumable\n",
 	.options = "jnrtmeO",
 	.names = true,
 	.main = retry_main,

@@ -109,12 +109,12 @@ slurm: {partition: work, time: 5 min, memory: 100 MB, throttle: 2, directives: {
 END1
 cat >limit.yaml <<'END1'
 base: base.yaml
-set: {time.cfl: 0.003}
+set: {time.cfl: 0.002}
 slurm: {time: "1:00", grace: 55 s}
 END1
 cat >storm.yaml <<'END1'
 base: base.yaml
-set: {time.cfl: 0.0025, checkpoint.every_steps: 500}
+set: {time.cfl: 0.0015, checkpoint.every_steps: 500}
 runs: [{layers: [8, 7]}]
 END1
 cat >longer.yaml <<'END1'
