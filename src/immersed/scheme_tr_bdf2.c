@@ -197,7 +197,7 @@ static int step(struct model_state *s, double dt, struct error *err)
 	bool rejected = false;
 
 	for (;;) {
-		double error;
+		double error = INFINITY;
 		bool solved = try_step(s, dt, &error) == 0;
 		double factor = solved ? SAFETY * cbrt(1 / fmax(error, 1e-9)) : FAILURE;
 

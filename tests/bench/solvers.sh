@@ -56,6 +56,6 @@ done
 	echo
 	echo 'Operations and bytes are per cell, layer and step, counted in `tests/bench/bench_roofline.c`; the'
 	echo 'time is that of the whole run, recording included.'
-} >"$out.tmp"
+} | sed "s|$root/||g" >"$out.tmp"
 mv "$out.tmp" "$out"
 sed 's/^/  /' "$out"
