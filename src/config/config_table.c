@@ -51,7 +51,8 @@ static const char *const laws[] = {[LAW_MU_I] = "mu_i", [LAW_LINEAR] = "linear",
 static const char *const wave_speeds[] = {
 	[WAVE_SPEED_FASTEST] = "fastest", [WAVE_SPEED_MEAN] = "mean", NULL};
 static const char *const reconstructions[] = {
-	[RECONSTRUCTION_STATIC] = "static", [RECONSTRUCTION_PRINTED] = "printed", NULL};
+	[RECONSTRUCTION_STATIC] = "static", [RECONSTRUCTION_PRINTED] = "printed",
+	[RECONSTRUCTION_CREEPING] = "creeping", NULL};
 static const char *const methods[] = {[METHOD_AUTO] = "auto",
 	[METHOD_BLOCK_GAUSS_SEIDEL] = "block-gauss-seidel",
 	[METHOD_BLOCK_GAUSS_SEIDEL_FACTORED] = "block-gauss-seidel-factored",
@@ -202,7 +203,8 @@ static const struct field fields[] = {
 	GROUP(scheme, DRY, "readings of the discretisation"),
 	CHOICE("scheme.friction_reconstruction", scheme.friction_reconstruction, DRY, "static",
 		reconstructions,
-		"where friction balances the slope in P1 (21): static: only at rest; printed: also in motion"),
+		"where friction balances the slope in P1 (21): static: only at rest; printed: also in motion; "
+		"creeping: as printed below 100 delta, else static; heaps keep their shape best with it"),
 	CHOICE("scheme.friction_thickness", scheme.friction_thickness, DRY, "well-balanced", thicknesses,
 		"thickness that carries the friction: well-balanced: P1 (25); plain: h (P1 Table 6b)"),
 

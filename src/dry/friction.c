@@ -35,7 +35,10 @@ KERNEL_PART void friction_thickness(
 	if (chunk.last == s->grid.cells && s->grid.right_wall)
 		plane[c->cells - 1] = -s->par.tan_slope * s->grid.dx;
 	for (int k = 0; k < c->cells; k++) {
-		double jump = h[k + 1] + b[k + 1] - h[k - 1] - b[k - 1] + plane[k];
+		bool shore_l = dry_emerges(h[k], b[k], h[k - 1], b[k - 1]);
+		bool shore_r = dry_emerges(h[k], b[k], h[k + 1], b[k + 1]);
+		double eta = h[k] + b[k], eta_l = h[k - 1] + b[k - 1], eta_r = h[k + 1] + b[k + 1];
+		double jump = (shore_r ? eta : eta_r) - (shore_l ? eta : eta_l) + plane[k]; /* level there */
 		double smooth = 0.5 * h[k] + 0.25 * (h[k - 1] + h[k + 1]);
 		double speed = fabs(bottom[k]) > fabs(top[k]) ? fabs(bottom[k]) : fabs(top[k]);
 		double carries = speed < rest ? 2 * smooth : smooth;
