@@ -116,6 +116,8 @@ struct config {
 	} pressure_solver;
 	struct {
 		struct real_list profiles_at; /* increasing, s */
+		struct real_list gauges;      /* where h(t) is recorded, increasing, m */
+		struct real_list velocity_at; /* where columns of u and w are, increasing, m */
 		double series_every;          /* s; 0: every step */
 		double front_threshold;       /* h - h_i at the front, m */
 		double static_speed;          /* a layer slower than this is at rest, m/s */

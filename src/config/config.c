@@ -180,19 +180,56 @@ static int check_fluid(
 	return field_blame(reader, "fluid.density", "grains.density", -1, err);
 }
 
-static int check_output(
+/* The times that would do are told as they are to be set: the commonest way here is an earlier end. */
+static int check_times(
 	const struct config *config, const struct field_reader *reader, struct error *err)
 {
 	const struct real_list *times = &config->output.profiles_at;
 	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
+	struct text kept = {0};
+	int good = 0;
 
-	for (int i = 0; i < times->count; i++)
-		if (times->values[i] > config->time.end) {
-			(void)error_set(err, EX_DATAERR, "output.profiles_at: %s s is after time.end (%s s)",
-				text_real(times->values[i], first), text_real(config->time.end, second));
-			return field_blame(reader, "output.profiles_at", "time.end", i, err);
-		}
+	while (good < times->count && times->values[good] <= config->time.end) {
+		text_addf(&kept, "%s%s", good ? "," : "", text_real(times->values[good], first));
+		good++;
+	}
+	if (good < times->count)
+		(void)error_set(err, EX_DATAERR,
+			"output.profiles_at: %s s is after time.end (%s s); an earlier end wants fewer times: "
+			"output.profiles_at=[%s]",
+			text_real(times->values[good], first), text_real(config->time.end, second),
+			text_string(&kept));
+	text_clean(&kept);
+	return good < times->count ? field_blame(reader, "output.profiles_at", "time.end", good, err)
+							   : 0;
+}
+
+static int check_positions(const struct config *config, const char *key,
+	const struct real_list *positions, const struct field_reader *reader, struct error *err)
+{
+	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
+
+	for (int i = 0; i < positions->count; i++) {
+		double x = positions->values[i];
+		bool left = x < config->domain.x_min;
+
+		if (!left && x <= config->domain.x_max)
+			continue;
+		(void)error_set(err, EX_DATAERR, "%s: %s m is outside the domain, %s m is its %s", key,
+			text_real(x, first),
+			text_real(left ? config->domain.x_min : config->domain.x_max, second),
+			left ? "x_min" : "x_max");
+		return field_blame(reader, key, left ? "domain.x_min" : "domain.x_max", i, err);
+	}
 	return 0;
+}
+
+static int check_output(
+	const struct config *config, const struct field_reader *reader, struct error *err)
+{
+	TRY(check_times(config, reader, err));
+	TRY(check_positions(config, "output.gauges", &config->output.gauges, reader, err));
+	return check_positions(config, "output.velocity_at", &config->output.velocity_at, reader, err);
 }
 
 static int read_tree(struct config *config, const struct field_source *file,
