@@ -174,15 +174,15 @@ static int find_datasets(const struct run_sources *sources, bool columns, struct
 	for (char *name = list->data ? strtok_r(list->data, "\n", &rest) : NULL; name;
 		 name = strtok_r(NULL, "\n", &rest)) {
 		bool fits = columns
-						? slice_layer_axis(file, name + 1) &&
-							  slice_has_axis(file, name + 1, "profile_time") && cells <= 1
-						: slice_has_axis(file, name + 1, "time") && strncmp(name, "/cpu", 4) != 0 &&
+						? slice_layer_axis(file, name + 1, err) &&
+							  slice_has_axis(file, name + 1, "profile_time", err) && cells <= 1
+						: slice_has_axis(file, name + 1, "time", err) && strncmp(name, "/cpu", 4) != 0 &&
 							  strcmp(name, "/time") != 0 && strcmp(name, "/dt") != 0;
 
 		if (fits && !strchr(name + 1, '/') && *count < FOUND_MAX)
 			names[(*count)++] = name + 1;
 	}
-	return 0;
+	return err->code ? -1 : 0;
 }
 
 static int draw_found(

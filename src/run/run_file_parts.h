@@ -42,7 +42,8 @@ int run_file_dataset_text(
 	struct run_file *file, const char *path, const char *name, struct text *out, struct error *err);
 
 /* The name of the scale that axis `axis` of a dataset has; nothing is added without one. */
-void run_file_scale_name(struct run_file *file, const char *path, int axis, struct text *out);
+int run_file_scale_name(
+	struct run_file *file, const char *path, int axis, struct text *out, struct error *err);
 
 /* Read a dataset of exactly `count` values. EX_DATAERR. */
 int run_file_fill(
