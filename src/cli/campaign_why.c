@@ -103,7 +103,7 @@ static void add_nearest(
 static void add_mismatch(const struct experiment_run *run, struct text *out)
 {
 	struct run_file *file = NULL;
-	struct text warning = {0}, stored = {0}, keys = {0};
+	struct text warning = {0}, keys = {0};
 	struct error ignored = {0};
 	struct config config;
 	double version;
@@ -112,9 +112,7 @@ static void add_mismatch(const struct experiment_run *run, struct text *out)
 		goto done;
 	if (warning.length)
 		text_addf(out, "  warning: %s\n", text_string(&warning));
-	if (run_file_text(file, "config", &stored, &ignored) == 0 &&
-		config_parse(
-			&config, text_string(&stored), stored.length, run->folder, NULL, 0, &ignored) == 0)
+	if (run_file_config(file, &config, &ignored) == 0)
 		config_differences(&config, &run->config, &keys);
 	if (keys.length) {
 		text_add(out, "  its run file was made from another config, and is refused:\n");
@@ -127,10 +125,9 @@ static void add_mismatch(const struct experiment_run *run, struct text *out)
 			"refused\n",
 			version, model_find(&run->config)->numerics_version);
 done:
-	out->failed |= warning.failed || stored.failed || keys.failed || ignored.code == EX_SOFTWARE;
+	out->failed |= warning.failed || keys.failed || ignored.code == EX_SOFTWARE;
 	run_file_close(file);
 	text_clean(&warning);
-	text_clean(&stored);
 	text_clean(&keys);
 }
 

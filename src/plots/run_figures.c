@@ -62,7 +62,7 @@ static char *name_of(const char *path)
 static int open_source(
 	struct run_source *source, const char *path, struct text *missing, struct error *err)
 {
-	struct text warning = {0}, config = {0};
+	struct text warning = {0};
 	struct error unknown = {0};
 
 	source->name = name_of(path);
@@ -76,11 +76,8 @@ static int open_source(
 	}
 	if (warning.length)
 		text_addf(missing, "%s: %s\n", path, text_string(&warning));
-	if (!run_file_text(source->file, "config", &config, &unknown))
-		source->config_known = config_parse(&source->config, text_string(&config), config.length,
-								   path, NULL, 0, &unknown) == 0;
+	source->config_known = run_file_config(source->file, &source->config, &unknown) == 0;
 	text_clean(&warning);
-	text_clean(&config);
 	if (unknown.code != EX_SOFTWARE)
 		return 0;
 	*err = unknown;

@@ -27,7 +27,7 @@ static bool is_end_alone(const char *keys)
 static int compare_config(
 	const struct attempt *attempt, struct run_file *file, double *earlier, struct error *err)
 {
-	struct text stored = {0}, keys = {0}, list = {0};
+	struct text keys = {0}, list = {0};
 	struct error unreadable = {0};
 	struct config config;
 	int result = -1;
@@ -37,10 +37,7 @@ static int compare_config(
 	*earlier = NAN;
 	if (!strcmp(run_file_summary(file)->config_hash, attempt->config_hash))
 		return 0;
-	if (run_file_text(file, "config", &stored, err) != 0)
-		goto done;
-	if (config_parse(&config, text_string(&stored), stored.length, run_file_path(file), NULL, 0,
-			&unreadable) == 0)
+	if (run_file_config(file, &config, &unreadable) == 0)
 		config_differences(&config, attempt->config, &keys);
 	if (unreadable.code == EX_SOFTWARE || keys.failed) {
 		*err = unreadable;
@@ -64,7 +61,6 @@ static int compare_config(
 				"they were, or "
 			  : "");
 done:
-	text_clean(&stored);
 	text_clean(&keys);
 	text_clean(&list);
 	return result;

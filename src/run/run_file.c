@@ -272,6 +272,17 @@ int run_file_real(struct run_file *file, const char *name, double *out, struct e
 	return result;
 }
 
+int run_file_config(struct run_file *file, struct config *config, struct error *err)
+{
+	struct text text = {0};
+	int result = run_file_text(file, "config", &text, err);
+
+	if (result == 0)
+		result = config_parse(config, text_string(&text), text.length, file->path, NULL, 0, err);
+	text_clean(&text);
+	return result;
+}
+
 /* Open a dataset of numbers and tell its shape. */
 static hid_t open_dataset(
 	struct run_file *file, const char *path, struct dataset *shape, struct error *err)
