@@ -163,9 +163,6 @@ void config_print_leading(const struct config *config, struct text *out);
 enum { CONFIG_HASH_SIZE = 17 };
 int config_hash(const struct config *config, char hash[CONFIG_HASH_SIZE], struct error *err);
 
-/* Whether two configs differ in nothing but time.end (and what cannot change numbers). */
-bool config_is_alike(const struct config *a, const struct config *b);
-
 /* Name, per line, every key (except `checkpoint` and `threads`) whose value differs:
  * "layers: 10 -> 20". */
 void config_differences(const struct config *a, const struct config *b, struct text *out);

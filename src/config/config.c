@@ -367,19 +367,6 @@ bool config_is_whole(const char *key)
 	return field && field->kind == FIELD_INTEGER;
 }
 
-bool config_is_alike(const struct config *a, const struct config *b)
-{
-	struct config other = *a;
-	struct text keys = {0};
-	bool alike;
-
-	other.time.end = b->time.end;
-	field_differences(&config_table, &other, b, &keys);
-	alike = !keys.length && !keys.failed;
-	text_clean(&keys);
-	return alike;
-}
-
 void config_differences(const struct config *a, const struct config *b, struct text *out)
 {
 	field_differences(&config_table, a, b, out);
@@ -411,5 +398,5 @@ int config_value(const struct config *config, const char *key, struct text *out,
 	if (!field_applies(&config_table, field, config))
 		return field_inapplicable(&config_table, field, config, err);
 	field_print_value(field, config, out);
-	return 0;
+	return out->failed ? error_memory(err, out->capacity) : 0;
 }
