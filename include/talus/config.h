@@ -137,6 +137,8 @@ struct config {
 	} pressure_solver;
 	struct {
 		struct real_list profiles_at; /* increasing, s */
+		struct real_list gauges;      /* where h(t) is recorded, increasing, m */
+		struct real_list velocity_at; /* where columns of u and w are, increasing, m */
 		double series_every;          /* s; 0: every step */
 		double front_threshold;       /* h - h_i at the front, m */
 		double static_speed;          /* a layer slower than this is at rest, m/s */
@@ -187,9 +189,6 @@ void config_print_leading(const struct config *config, struct text *out);
 /* 16 hexadecimal digits of what can change numbers: every key except `checkpoint`, `threads`. */
 enum { CONFIG_HASH_SIZE = 17 };
 int config_hash(const struct config *config, char hash[CONFIG_HASH_SIZE], struct error *err);
-
-/* Whether two configs differ in nothing but time.end (and what cannot change numbers). */
-bool config_is_alike(const struct config *a, const struct config *b);
 
 /* Name, per line, every key (except `checkpoint` and `threads`) whose value differs:
  * "layers: 10 -> 20". */

@@ -125,9 +125,10 @@ void field_differences(
 			continue;
 		field_print_value(field, a, &left);
 		field_print_value(field, b, &right);
-		if (strcmp(text_string(&left), text_string(&right)) != 0)
+		if (left.failed || right.failed)
+			out->failed = true;
+		else if (strcmp(text_string(&left), text_string(&right)) != 0)
 			text_addf(out, "%s: %s -> %s\n", field->name, text_string(&left), text_string(&right));
-		out->failed = out->failed || left.failed || right.failed;
 		text_clean(&left);
 		text_clean(&right);
 	}

@@ -151,6 +151,10 @@ void dry_transport(struct model_state *s, double dt);
 /* Step 2 (P1 23-25): friction between the layers and at the bottom, implicit with frozen viscosity. */
 void dry_friction(struct model_state *s, double dt);
 
+/* What friction takes from the flow now, with the coefficients of step 2 (P1 Theorem 1): at the bottom,
+ * or between the layers, [cells], W/m2. */
+void dry_dissipation(const struct model_state *s, bool between_layers, double *values);
+
 /* Step 3 (P1 26-33): make the velocity free of divergence. EX_FAILED when the solver does not
  * converge. */
 int dry_pressure(struct model_state *s, double dt, struct error *err);
@@ -159,7 +163,7 @@ int dry_pressure(struct model_state *s, double dt, struct error *err);
 void dry_add_pressure_force(struct model_state *s, const double *p, double dt);
 
 /* Series and profiles (observe.c), as struct model describes them. */
-enum { DRY_SERIES_COUNT = 14, DRY_PROFILE_COUNT = 6 };
+enum { DRY_SERIES_COUNT = 16, DRY_PROFILE_COUNT = 8 };
 extern const struct series dry_series[DRY_SERIES_COUNT];
 extern const struct profile dry_profiles[DRY_PROFILE_COUNT];
 void dry_observe(const struct model_state *s, double *values);

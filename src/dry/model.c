@@ -299,11 +299,15 @@ static int check(const struct model_state *s, struct error *err)
 {
 	for (int i = 1; i <= s->grid.cells; i++) {
 		if (s->h[i] < 0)
-			return error_set(err, EX_FAILED, "negative thickness %g m at x = %g m", s->h[i],
-				grid_centre(&s->grid, i));
+			return error_set(err, EX_FAILED,
+				"negative thickness %g m at x = %g m; a time.cfl below %g may carry it", s->h[i],
+				grid_centre(&s->grid, i), s->par.cfl);
 		if (!isfinite(s->h[i] + s->squares[i]))
-			return error_set(err, EX_FAILED, "the state is not finite (thickness %g m) at x = %g m",
-				s->h[i], grid_centre(&s->grid, i));
+			return error_set(err, EX_FAILED,
+				"the state is not finite (thickness %g m) at x = %g m; a time.cfl below %g may "
+				"carry "
+				"it",
+				s->h[i], grid_centre(&s->grid, i), s->par.cfl);
 	}
 	return 0;
 }

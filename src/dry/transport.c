@@ -146,8 +146,8 @@ KERNEL_PART void limit_outflow(const struct model_state *s, double dt, struct wi
 	}
 	for (int f = 0; f < r->faces; f++) {
 		double left = pays[f], right = pays[f + 1], share = flux[f] > 0 ? left : right;
-		bool blocked =
-			dry_emerges(h[f], b[f], h[f + 1], b[f + 1]) | dry_emerges(h[f + 1], b[f + 1], h[f], b[f]);
+		bool blocked = dry_emerges(h[f], b[f], h[f + 1], b[f + 1]) |
+					   dry_emerges(h[f + 1], b[f + 1], h[f], b[f]);
 
 		r->share[f] = blocked ? 0 : share;
 	}

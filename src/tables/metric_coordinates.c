@@ -25,8 +25,7 @@ static void outline(const struct config *config, const struct dataset *x, const 
 	}
 }
 
-int metric_turn_thickness(
-	const struct sample *sample, double **h, size_t *cells, struct error *err)
+int metric_turn_thickness(const struct sample *sample, double **h, size_t *cells, struct error *err)
 {
 	struct grid grid = grid_make(sample->partner_config);
 	struct turn turn = turn_of(sample->config);
@@ -63,7 +62,8 @@ done:
 }
 
 /* A series at a time, between its values. */
-static int series_at(struct run_file *file, const char *name, double at, double *out, struct error *err)
+static int series_at(
+	struct run_file *file, const char *name, double at, double *out, struct error *err)
 {
 	struct dataset time = {0}, data = {0};
 	size_t i = 0, count;
@@ -91,8 +91,8 @@ done:
 
 /* The front at a time, from the gate and along the reference plane; it is on the bed, which is taken to be
  * the plane. */
-static int front_way(struct run_file *file, const struct config *config, double at, double *out,
-	struct error *err)
+static int front_way(
+	struct run_file *file, const struct config *config, double at, double *out, struct error *err)
 {
 	TRY(series_at(file, "front_position", at, out, err));
 	*out -= config->initial.front;
