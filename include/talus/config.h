@@ -15,6 +15,7 @@ enum shape_kind { SHAPE_COLUMN, SHAPE_HEAP, SHAPE_TRIANGLE, SHAPE_LEVEL, SHAPE_C
 enum coordinates_kind { COORDINATES_LOCAL, COORDINATES_CARTESIAN };
 enum given_kind { GIVEN_SAME, GIVEN_LOCAL, GIVEN_CARTESIAN };
 enum topography_kind { TOPOGRAPHY_PLANE, TOPOGRAPHY_BUMP, TOPOGRAPHY_RANDOM, TOPOGRAPHY_FILE };
+enum friction_kind { FRICTION_VISCOUS, FRICTION_COULOMB };
 enum thickness_kind { THICKNESS_WELL_BALANCED, THICKNESS_PLAIN };
 enum law_kind { LAW_MU_I, LAW_LINEAR };
 enum wave_speed_kind { WAVE_SPEED_FASTEST, WAVE_SPEED_MEAN };
@@ -122,6 +123,7 @@ struct config {
 	} time;
 	struct {
 		int friction_reconstruction; /* enum reconstruction_kind: where dC of P1 (21) balances */
+		int friction;                /* enum friction_kind: how step 2 takes it */
 		int friction_thickness;      /* enum thickness_kind: what carries the friction, P1 (25) */
 	} scheme;
 	struct {

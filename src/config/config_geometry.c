@@ -75,6 +75,18 @@ static int check_gate(
 	return field_blame(reader, "gate.speed", "topography.coordinates", -1, err);
 }
 
+/* P2's friction step knows no layers. */
+static int check_friction(
+	const struct config *config, const struct field_reader *reader, struct error *err)
+{
+	if (config->scheme.friction == FRICTION_VISCOUS || config->layers == 1)
+		return 0;
+	(void)error_set(err, EX_DATAERR,
+		"scheme.friction: coulomb stops a whole column, and here are %d layers that shear",
+		config->layers);
+	return field_blame(reader, "scheme.friction", "layers", -1, err);
+}
+
 /* The config is kept in one attribute of the run file, of which HDF5 holds 64 kB. */
 static int check_length(
 	const struct config *config, const struct field_reader *reader, struct error *err)
@@ -106,5 +118,6 @@ int config_check_geometry(
 	TRY(check_points(reader, &config->initial.points, config->initial.shape == SHAPE_FILE,
 		"initial.points", "initial.shape", err));
 	TRY(check_gate(config, reader, err));
+	TRY(check_friction(config, reader, err));
 	return check_length(config, reader, err);
 }

@@ -145,6 +145,25 @@ KERNEL_PART void substitute(int cells, const double *restrict h, const double *r
 	}
 }
 
+/* P2 step 2, for one layer: it loses what friction takes in the step, or stops, also upwards. */
+KERNEL_PART void slow_or_stop(
+	struct model_state *s, struct chunk chunk, const struct columns *c, double dt)
+{
+	const struct dry_parameters par = s->par;
+	size_t first = (size_t)chunk.first;
+	const double *restrict u = s->u + first, *restrict q = s->q + first - 1;
+	double *restrict U = s->U + first, *restrict W = s->W + first;
+
+	for (int k = 0; k < c->cells; k++) {
+		double p = par.gc * c->hs[k] + 0.5 * (q[k] + q[k + 1]), weight = p > 0 ? p : 0;
+		double takes = dt * dry_mu(&par, fabs(u[k]) / c->h[k], weight) * weight;
+		double left = fabs(U[k]) - takes;
+
+		U[k] = left > 0 ? copysign(left, U[k]) : 0;
+		W[k] = left > 0 ? W[k] : 0;
+	}
+}
+
 /* P1 (24) by the Thomas algorithm: h u_a - dt N [k_up (u_{a+1} - u_a) - k_down (u_a - u_{a-1})] = U_a.
  * U turns into u on the way up and back into h u on the way down. */
 KERNEL static void friction(struct model_state *s, struct chunk chunk, double dt)
@@ -161,6 +180,10 @@ KERNEL static void friction(struct model_state *s, struct chunk chunk, double dt
 	if (thin)
 		slide_as_one(s, chunk, h, c.cells, dt);
 	friction_thickness(s, chunk, &c);
+	if (s->par.coulomb) {
+		slow_or_stop(s, chunk, &c, dt);
+		return;
+	}
 	begin(s, chunk, &c, dt);
 	for (int a = 0; a <= last; a++) {
 		size_t row = (size_t)a * stride + first;
