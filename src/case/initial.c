@@ -19,10 +19,18 @@ static double heap(const struct config *config, double x)
 		   config->initial.height * (double)expl(-(long double)t * t);
 }
 
+/* A flow without ends (P3 5.1). */
+static double uniform(const struct config *config, double x)
+{
+	(void)x;
+	return config->erodible_bed_thickness + config->initial.height;
+}
+
 /* Thickness at x, m; the index is enum shape_kind. */
 static double (*const shapes[])(const struct config *config, double x) = {
 	[SHAPE_COLUMN] = column,
 	[SHAPE_HEAP] = heap,
+	[SHAPE_UNIFORM] = uniform,
 };
 
 void initial_thickness(const struct config *config, const struct grid *grid, double *h)
