@@ -54,7 +54,7 @@ static void destroy(void *memory)
 static int create(
 	int layers, int faces, const struct pressure_options *options, void **out, struct error *err)
 {
-	struct columns columns = columns_make(layers, faces);
+	struct column_layout columns = columns_make(layers, faces);
 	struct memory *m = calloc(1, sizeof *m);
 
 	if (!m)

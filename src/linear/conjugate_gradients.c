@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "linear/arrays.h"
 #include "linear/fast_diagonal.h"
 #include "linear/pressure_solver.h"
 
@@ -11,13 +12,13 @@ enum { BATCH = 4 }; /* groups whose columns are in hand at once */
 
 struct memory {
 	struct fast_diagonal fast;
-	struct columns columns;
+	struct column_layout columns;
 	int threads;
 	double *x, *residual, *direction; /* columns, in units of |b| */
 	double *product; /* columns: A times the direction; in between the preconditioned residual */
 	double *sums;    /* [groups or blocks, whichever is more] */
 	float *modes;    /* columns of modes */
-	double *block;
+	void *block;
 	double scale;       /* |b| */
 	double alpha, beta; /* of the pass at hand */
 };
@@ -29,23 +30,6 @@ struct part {
 	int first, last;
 };
 
-static size_t layout(struct memory *m, double *block)
-{
-	size_t all = columns_count(&m->columns);
-	int groups = m->columns.groups, blocks = fast_diagonal_blocks(&m->fast);
-	size_t sums = (size_t)(groups > blocks ? groups : blocks);
-	struct {
-		double **part;
-		size_t count;
-	} const parts[] = {{&m->x, all}, {&m->residual, all}, {&m->direction, all}, {&m->product, all},
-		{&m->sums, sums}};
-	size_t at = 0;
-
-	for (size_t i = 0; i < sizeof parts / sizeof *parts; at += parts[i++].count)
-		*parts[i].part = block ? block + at : NULL;
-	return at;
-}
-
 static void destroy(void *memory)
 {
 	struct memory *m = memory;
@@ -54,32 +38,36 @@ static void destroy(void *memory)
 		return;
 	fast_diagonal_clean(&m->fast);
 	free(m->block);
-	free(m->modes);
 	free(m);
+}
+
+static int allocate(struct memory *m, struct error *err)
+{
+	int layers = m->columns.layers, faces = m->columns.faces, groups = m->columns.groups, blocks;
+	size_t all = columns_count(&m->columns);
+
+	TRY(fast_diagonal_init(&m->fast, layers, faces, err));
+	blocks = fast_diagonal_blocks(&m->fast);
+	return arrays_allocate(
+		(struct array[]){ARRAY(m->x, all), ARRAY(m->residual, all), ARRAY(m->direction, all),
+			ARRAY(m->product, all), ARRAY(m->sums, (size_t)(groups > blocks ? groups : blocks)),
+			ARRAY(m->modes, fast_diagonal_count(&m->fast)), {0}},
+		&m->block, err);
 }
 
 static int create(
 	int layers, int faces, const struct pressure_options *options, void **out, struct error *err)
 {
 	struct memory *m = calloc(1, sizeof *m);
-	size_t count;
 
 	if (!m)
 		return error_memory(err, sizeof *m);
 	m->columns = columns_make(layers, faces);
 	m->threads = options->threads;
-	if (fast_diagonal_init(&m->fast, layers, faces, err) != 0) {
+	if (allocate(m, err) != 0) {
 		destroy(m);
 		return -1;
 	}
-	count = layout(m, NULL);
-	m->block = calloc(count, sizeof *m->block);
-	m->modes = calloc(fast_diagonal_count(&m->fast), sizeof *m->modes);
-	if (!m->block || !m->modes) {
-		destroy(m);
-		return error_memory(err, count * sizeof *m->block);
-	}
-	(void)layout(m, m->block);
 	*out = m;
 	return 0;
 }

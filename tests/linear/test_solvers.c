@@ -614,7 +614,7 @@ static void the_cells_and_the_bands_are_one_matrix(void **state)
 			continue;
 		setup_init(&setup, &problems[p], true);
 		int count = count_of(system);
-		struct columns columns = columns_make(system->layers, system->faces);
+		struct column_layout columns = columns_make(system->layers, system->faces);
 		size_t all = columns_count(&columns);
 		double *x = calloc((size_t)count, sizeof *x), *in, *out, *sums;
 		double relative[2], dot = 0, largest = 0;
