@@ -286,8 +286,7 @@ static int read_tree(struct config *config, const struct field_source *file,
 		check_domain(config, &reader, err) == 0 && check_ends(config, &reader, err) == 0 &&
 		check_rheology(config, &reader, err) == 0 && check_output(config, &reader, err) == 0 &&
 		check_operator(config, &reader, err) == 0 && check_fractions(config, &reader, err) == 0 &&
-		check_fluid(config, &reader, err) == 0 &&
-		config_check_geometry(config, &reader, err) == 0)
+		check_fluid(config, &reader, err) == 0 && config_check_geometry(config, &reader, err) == 0)
 		status = 0;
 done:
 	for (int i = 0; i < count; i++)
