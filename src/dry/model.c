@@ -43,7 +43,8 @@ static struct dry_parameters parameters(const struct config *config)
 		.front_threshold = config->output.front_threshold,
 		.static_speed = config->output.static_speed,
 		.fastest = config->time.wave_speed == WAVE_SPEED_FASTEST,
-		.static_balance = config->scheme.friction_reconstruction == RECONSTRUCTION_STATIC,
+		.reconstruction = config->scheme.friction_reconstruction,
+		.coulomb = config->scheme.friction == FRICTION_COULOMB,
 		.plain_thickness = config->scheme.friction_thickness == THICKNESS_PLAIN,
 		.non_hydrostatic = config->pressure == PRESSURE_NON_HYDROSTATIC,
 	};

@@ -154,6 +154,9 @@ static int difference(const struct sample *sample, int power, double *out, struc
 	if (read_thickness(sample->file, sample->at, &h, &cells, err) ||
 		read_thickness(sample->partner, sample->at, &reference, &reference_cells, err))
 		goto done;
+	if (sample->config->coordinates != sample->partner_config->coordinates &&
+		metric_turn_thickness(sample, &h, &cells, err))
+		goto done;
 	if (cells != reference_cells) {
 		error_set(
 			err, EX_DATAERR, "%zu cells here and %zu in the reference", cells, reference_cells);
@@ -381,9 +384,22 @@ static const struct metric metrics[] = {
 		"difference of the front from observations over time, relative to its way from the gate"},
 	{"l1-difference", "l1", "%", 2, PARTNER_REFERENCE, true, NULL, l1_difference, NULL,
 		"difference in thickness from the `reference` run, over the mass above the bed: l1 norm, "
-		"at a profile time"},
+		"at a profile time, in the coordinates of the reference"},
 	{"l2-difference", "l2", "%", 2, PARTNER_REFERENCE, true, NULL, l2_difference, NULL,
 		"the same in the l2 norm"},
+	{"front-difference", "front", "%", 1, PARTNER_REFERENCE, true, NULL, metric_front_difference,
+		NULL,
+		"difference of the front from the `reference` run at a profile time, relative to its way "
+		"from "
+		"the gate along the plane"},
+	{"h-drift", "h L1", "m2", -1, PARTNER_NONE, false, NULL, metric_drift_l1, "h",
+		"the greatest distance of a stored thickness from the first one stored, L1 as P1 (35)"},
+	{"u-drift", "u L1", "m3/s", -1, PARTNER_NONE, false, NULL, metric_drift_l1, "u",
+		"the same of the layer velocities along the slope"},
+	{"w-drift", "w L1", "m3/s", -1, PARTNER_NONE, false, NULL, metric_drift_l1, "w",
+		"the same of those normal to the slope"},
+	{"h-change", "h moves", "m", -1, PARTNER_NONE, false, NULL, metric_drift_largest, "h",
+		"the greatest change of the thickness at any place since the first profile stored"},
 	{"h-l1", "h L1", "m2", -1, PARTNER_REFERENCE, true, NULL, metric_reference_l1, "h",
 		"difference in thickness from the `reference` run, which is averaged over the cells of "
 		"this "
