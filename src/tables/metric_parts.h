@@ -26,6 +26,7 @@ int metric_series_last(const struct sample *sample, double *out, struct error *e
 int metric_series_greatest(const struct sample *sample, double *out, struct error *err);
 int metric_series_least(const struct sample *sample, double *out, struct error *err);
 int metric_series_drift(const struct sample *sample, double *out, struct error *err);
+int metric_mass_drift(const struct sample *sample, double *out, struct error *err);
 int metric_series_half_time(const struct sample *sample, double *out, struct error *err);
 int metric_series_sign_change(const struct sample *sample, double *out, struct error *err);
 int metric_series_difference(const struct sample *sample, double *out, struct error *err);
