@@ -25,7 +25,7 @@ KERNEL_PART void friction_thickness(
 	const double *restrict h = s->h + first, *restrict b = s->b + first;
 	const double *restrict bottom = s->u + first;
 	const double *restrict top = s->u + (size_t)(s->layers - 1) * s->grid.stride + first;
-	double limit = 2 * s->grid.dx * s->par.mu_s * (1 + 1e-9);
+	double limit = s->par.plain_thickness ? -1 : 2 * s->grid.dx * s->par.mu_s * (1 + 1e-9);
 	double rest = 100 * s->par.delta_velocity, plane[CHUNK_CELLS] = {0};
 
 	for (int k = 0; k < c->cells; k++)
@@ -40,7 +40,7 @@ KERNEL_PART void friction_thickness(
 		double speed = fabs(bottom[k]) > fabs(top[k]) ? fabs(bottom[k]) : fabs(top[k]);
 		double carries = speed < rest ? 2 * smooth : smooth;
 
-		c->hs[k] = fabs(jump) <= limit ? carries : h[k];
+		c->hs[k] = fabs(jump) <= limit ? carries : h[k]; /* never, where the limit is below 0 */
 		c->h[k] = h[k] > DRY_ONE_LAYER ? h[k] : DRY_ONE_LAYER;
 	}
 }
@@ -183,4 +183,39 @@ KERNEL static void friction(struct model_state *s, struct chunk chunk, double dt
 void dry_friction(struct model_state *s, double dt)
 {
 	chunk_each(s, friction, dt);
+}
+
+/* One interface of P1 Theorem 1: that below layer `a`, W/m2. */
+static double lost_below(
+	const struct model_state *s, const struct columns *c, int k, size_t i, int a)
+{
+	const double *u = s->u + (size_t)a * s->grid.stride + i;
+	const double *q = s->q + (size_t)a * (size_t)s->grid.faces + i;
+	double n = s->layers, p = s->par.gc * (n - a) / n * c->hs[k] + 0.5 * (q[-1] + q[0]);
+	double jump = a ? u[0] - u[-(ptrdiff_t)s->grid.stride] : u[0];
+
+	p = p > 0 ? p : 0;
+	return s->par.rho * jump * jump *
+		   (a ? inner_coefficient(&s->par, n, c->h[k], jump, p)
+			  : bottom_coefficient(&s->par, n, c->h[k], jump, p));
+}
+
+void dry_dissipation(const struct model_state *s, bool between_layers, double *values)
+{
+	int first = between_layers ? 1 : 0, last = between_layers ? s->layers - 1 : 0;
+
+	for (int begins = 1; begins <= s->grid.cells; begins += CHUNK_CELLS) {
+		int ends = begins + CHUNK_CELLS - 1;
+		struct chunk chunk = {begins, ends < s->grid.cells ? ends : s->grid.cells};
+		struct columns c = {.cells = chunk.last - chunk.first + 1};
+
+		friction_thickness(s, chunk, &c);
+		for (int k = 0; k < c.cells; k++) {
+			size_t i = (size_t)(begins + k);
+
+			values[i - 1] = 0;
+			for (int a = first; a <= last && s->h[i] >= DRY_ONE_LAYER; a++)
+				values[i - 1] += lost_below(s, &c, k, i, a);
+		}
+	}
 }

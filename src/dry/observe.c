@@ -11,6 +11,8 @@ enum {
 	MASS,
 	MASS_OUTFLOW,
 	ENERGY,
+	KINETIC_ENERGY,
+	POTENTIAL_ENERGY,
 	PRESSURE_ITERATIONS,
 	COARSE_ITERATIONS,
 	PRESSURE_RESIDUAL,
@@ -50,6 +52,14 @@ const struct series dry_series[DRY_SERIES_COUNT] = {
 		.units = "J m-1",
 		.long_name = "kinetic and potential energy per unit width (P1 Theorem 1)",
 		.slope_of = -1},
+	[KINETIC_ENERGY] = {.name = "kinetic_energy",
+		.units = "J m-1",
+		.long_name = "kinetic energy per unit width",
+		.slope_of = -1},
+	[POTENTIAL_ENERGY] = {.name = "potential_energy",
+		.units = "J m-1",
+		.long_name = "potential energy per unit width, 0 at the right end of the reference plane",
+		.slope_of = -1},
 	[PRESSURE_ITERATIONS] = {.name = "pressure_iterations",
 		.units = "1",
 		.long_name = "iterations of the pressure solver in the step",
@@ -88,7 +98,16 @@ const struct series dry_series[DRY_SERIES_COUNT] = {
 		.per_step_sum = true},
 };
 
-enum { BED, THICKNESS, STATIC_HEIGHT, VELOCITY, NORMAL_VELOCITY, PRESSURE };
+enum {
+	BED,
+	THICKNESS,
+	STATIC_HEIGHT,
+	VELOCITY,
+	NORMAL_VELOCITY,
+	PRESSURE,
+	BOTTOM_DISSIPATION,
+	LAYER_DISSIPATION,
+};
 
 const struct profile dry_profiles[DRY_PROFILE_COUNT] = {
 	[BED] = {"b", "m", "bed above the reference plane", PROFILE_X, true},
@@ -99,6 +118,10 @@ const struct profile dry_profiles[DRY_PROFILE_COUNT] = {
 	[NORMAL_VELOCITY] = {"w", "m s-1", "layer velocity normal to the slope", PROFILE_LAYER_X,
 		false},
 	[PRESSURE] = {"p", "Pa", "total pressure at the layer interfaces", PROFILE_INTERFACE_X, false},
+	[BOTTOM_DISSIPATION] = {"bottom_dissipation", "W m-2",
+		"power of the friction at the bottom (P1 Theorem 1)", PROFILE_X, false},
+	[LAYER_DISSIPATION] = {"layer_dissipation", "W m-2",
+		"power of the friction between the layers (P1 Theorem 1)", PROFILE_X, false},
 };
 
 /* Rightmost crossing of h - h_i = threshold, linear between the cell centres; NaN: none. */
@@ -118,17 +141,21 @@ static double front(const struct model_state *s)
 }
 
 /* P1 Theorem 1 summed over the domain, times rho: J/m. */
-static double energy(const struct model_state *s)
+static void energies(const struct model_state *s, double *values)
 {
-	double sum = 0, end = s->grid.x_min + s->grid.cells * s->grid.dx;
+	double sum = 0, kinetic = 0, end = s->grid.x_min + s->grid.cells * s->grid.dx;
+	double scale = s->par.rho * s->grid.dx;
 
 	for (int i = 1; i <= s->grid.cells; i++) {
 		double plane = (end - grid_centre(&s->grid, i)) * s->par.tan_slope;
+		double moving = 0.5 * s->squares[i] / s->layers;
 
-		sum += s->h[i] *
-			   (0.5 * s->squares[i] / s->layers + s->par.gc * (plane + s->b[i] + 0.5 * s->h[i]));
+		sum += s->h[i] * (moving + s->par.gc * (plane + s->b[i] + 0.5 * s->h[i]));
+		kinetic += s->h[i] * moving;
 	}
-	return s->par.rho * s->grid.dx * sum;
+	values[ENERGY] = scale * sum;
+	values[KINETIC_ENERGY] = scale * kinetic;
+	values[POTENTIAL_ENERGY] = values[ENERGY] - values[KINETIC_ENERGY];
 }
 
 void dry_observe(const struct model_state *s, double *values)
@@ -145,7 +172,7 @@ void dry_observe(const struct model_state *s, double *values)
 	values[MAX_THICKNESS] = thickest;
 	values[MASS] = s->par.rho * s->grid.dx * mass;
 	values[MASS_OUTFLOW] = s->mass[1];
-	values[ENERGY] = energy(s);
+	energies(s, values);
 	values[PRESSURE_ITERATIONS] = s->iterations;
 	values[COARSE_ITERATIONS] = s->coarse_iterations;
 	values[PRESSURE_RESIDUAL] = s->residual;
@@ -176,7 +203,7 @@ static void diagnose_w(const struct model_state *s, double *values)
 {
 	int cells = s->grid.cells;
 	double n = s->layers, width = 2 * s->grid.dx;
-	const double *h = s->h, *b = s->b;
+	const double *h = s->h, *b = s->bed;
 
 	for (int i = 1; i <= cells; i++) {
 		double below = 0;
@@ -220,7 +247,7 @@ void dry_profile(const struct model_state *s, size_t index, double *values)
 {
 	switch (index) {
 	case BED:
-		copy_cells(s, s->b, 1, values);
+		copy_cells(s, s->bed, 1, values);
 		break;
 	case THICKNESS:
 		copy_cells(s, s->h, 1, values);
@@ -238,7 +265,10 @@ void dry_profile(const struct model_state *s, size_t index, double *values)
 		else
 			diagnose_w(s, values);
 		break;
-	default:
+	case PRESSURE:
 		total_pressure(s, values);
+		break;
+	default:
+		dry_dissipation(s, index == LAYER_DISSIPATION, values);
 	}
 }

@@ -181,7 +181,7 @@ static int l2_difference(const struct sample *sample, double *out, struct error 
 	return difference(sample, 2, out, err);
 }
 
-/* The last moment at which some layer was faster than the static speed. */
+/* The last moment at which the speed `dataset` was above the static speed. */
 static int stopping_time(const struct sample *sample, double *out, struct error *err)
 {
 	struct dataset time = {0}, speed = {0};
@@ -189,10 +189,10 @@ static int stopping_time(const struct sample *sample, double *out, struct error 
 	int result = -1;
 
 	if (metric_read(sample->file, "time", &time, err) ||
-		metric_read(sample->file, "max_speed", &speed, err))
+		metric_read(sample->file, sample->metric->dataset, &speed, err))
 		goto done;
 	i = metric_count(&speed);
-	while (i > 0 && speed.values[i - 1] < sample->config->output.static_speed)
+	while (i > 0 && fabs(speed.values[i - 1]) < sample->config->output.static_speed)
 		i--;
 	if (i == metric_count(&speed)) {
 		error_set(err, EX_DATAERR, "it still flows at the end");
@@ -366,12 +366,22 @@ static const struct metric metrics[] = {
 	{"steps", "steps", "", 0, PARTNER_NONE, false, NULL, steps, NULL, "number of time steps"},
 	{"runout", "runout", "m", 3, PARTNER_NONE, false, NULL, runout, "front_position",
 		"final position of the front, from the gate"},
-	{"stopping-time", "stopping time", "s", 3, PARTNER_NONE, false, NULL, stopping_time, NULL,
-		"the last time at which some layer is faster than output.static_speed"},
+	{"stopping-time", "stopping time", "s", 3, PARTNER_NONE, false, NULL, stopping_time,
+		"max_speed", "the last time at which some layer is faster than output.static_speed"},
+	{"front-stopping-time", "front stops at", "s", 3, PARTNER_NONE, false, NULL, stopping_time,
+		"front_velocity", "the last time at which the front is faster than output.static_speed"},
 	{"final-thickness", "final thickness", "m", 4, PARTNER_NONE, false, NULL, metric_series_last,
 		"max_thickness", "the greatest thickness at the end"},
 	{"mass-drift", "mass drift", "1e-15", 1, PARTNER_NONE, false, NULL, metric_mass_drift, "mass",
 		"greatest relative change of the mass and what has left, in 1e-15"},
+	{"energy-rise", "rise in a step", "", -1, PARTNER_NONE, false, NULL, metric_series_rise,
+		"energy",
+		"how far the energy of P1 Theorem 1 rises between two records at most, over its first "
+		"value"},
+	{"energy-rises", "rises in all", "", -1, PARTNER_NONE, false, NULL, metric_series_rises,
+		"energy", "the sum of these rises"},
+	{"energy-loss", "energy lost", "%", 2, PARTNER_NONE, false, NULL, metric_series_loss, "energy",
+		"share of the energy that is gone at the end, by friction and with the mass that left"},
 	{"front-velocity", "fastest front", "m/s", 3, PARTNER_NONE, false, NULL, front_velocity, NULL,
 		"the greatest velocity of the front after its first 0.04 s"},
 	{"front-velocity-time", "fastest at", "s", 3, PARTNER_NONE, false, NULL, front_velocity_time,

@@ -27,6 +27,9 @@ int metric_series_greatest(const struct sample *sample, double *out, struct erro
 int metric_series_least(const struct sample *sample, double *out, struct error *err);
 int metric_series_drift(const struct sample *sample, double *out, struct error *err);
 int metric_mass_drift(const struct sample *sample, double *out, struct error *err);
+int metric_series_rise(const struct sample *sample, double *out, struct error *err);
+int metric_series_rises(const struct sample *sample, double *out, struct error *err);
+int metric_series_loss(const struct sample *sample, double *out, struct error *err);
 int metric_series_half_time(const struct sample *sample, double *out, struct error *err);
 int metric_series_sign_change(const struct sample *sample, double *out, struct error *err);
 int metric_series_difference(const struct sample *sample, double *out, struct error *err);

@@ -73,6 +73,43 @@ done:
 	return result;
 }
 
+/* How far the series rises between two records at most, or in all, relative to its first value. */
+static int rises(const struct sample *sample, bool all, double *out, struct error *err)
+{
+	struct dataset data = {0};
+
+	TRY(metric_read(sample->file, sample->metric->dataset, &data, err));
+	*out = 0;
+	for (size_t i = 1; i < metric_count(&data); i++) {
+		double rise = fmax(0, data.values[i] - data.values[i - 1]) / fabs(data.values[0]);
+
+		*out = all ? *out + rise : fmax(*out, rise);
+	}
+	free(data.values);
+	return 0;
+}
+
+int metric_series_rise(const struct sample *sample, double *out, struct error *err)
+{
+	return rises(sample, false, out, err);
+}
+
+int metric_series_rises(const struct sample *sample, double *out, struct error *err)
+{
+	return rises(sample, true, out, err);
+}
+
+/* What of its first value is gone at the end, in percent. */
+int metric_series_loss(const struct sample *sample, double *out, struct error *err)
+{
+	struct dataset data = {0};
+
+	TRY(metric_read(sample->file, sample->metric->dataset, &data, err));
+	*out = 100 * (1 - data.values[metric_count(&data) - 1] / data.values[0]);
+	free(data.values);
+	return 0;
+}
+
 /* A series and the times of its values. */
 static int read_both(struct run_file *file, const char *name, struct dataset *times,
 	struct dataset *values, struct error *err)
