@@ -209,20 +209,23 @@ done:
 	return result;
 }
 
-/* The greatest velocity of the front and when. At the release it jumps to the next cell, which is no flow. */
-static int front_peak(
-	const struct sample *sample, double *velocity, double *when, struct error *err)
+/* The first and the greatest velocity of the front, and when it has that. At the release it jumps to the
+ * next cell, which is no flow. */
+static int front_peak(const struct sample *sample, double *first, double *velocity, double *when,
+	struct error *err)
 {
 	const double settled = 0.04; /* s: the window of 0.02 s has left the release behind */
 	struct dataset time = {0}, front = {0};
 	int result = -1;
 
-	*velocity = *when = NAN;
+	*first = *velocity = *when = NAN;
 	if (metric_read(sample->file, "time", &time, err) ||
 		metric_read(sample->file, "front_velocity", &front, err))
 		goto done;
 	for (size_t i = 0; i < metric_count(&front) && i < metric_count(&time); i++)
 		if (time.values[i] >= settled && !(front.values[i] <= *velocity)) {
+			if (isnan(*first))
+				*first = front.values[i];
 			*velocity = front.values[i];
 			*when = time.values[i];
 		}
@@ -235,16 +238,23 @@ done:
 
 static int front_velocity(const struct sample *sample, double *out, struct error *err)
 {
-	double when;
+	double first, when;
 
-	return front_peak(sample, out, &when, err);
+	return front_peak(sample, &first, out, &when, err);
 }
 
 static int front_velocity_time(const struct sample *sample, double *out, struct error *err)
 {
-	double velocity;
+	double first, velocity;
 
-	return front_peak(sample, &velocity, out, err);
+	return front_peak(sample, &first, &velocity, out, err);
+}
+
+static int first_front_velocity(const struct sample *sample, double *out, struct error *err)
+{
+	double velocity, when;
+
+	return front_peak(sample, out, &velocity, &when, err);
 }
 
 /* A value between those of a rising axis; up to `edge` beyond its ends it is that of the end. */
@@ -365,6 +375,8 @@ static const struct metric metrics[] = {
 		"front_velocity", "the last time at which the front is faster than output.static_speed"},
 	{"final-thickness", "final thickness", "m", 4, PARTNER_NONE, false, NULL, metric_series_last,
 		"max_thickness", "the greatest thickness at the end"},
+	{"mass-drift", "mass drift", "1e-15", 1, PARTNER_NONE, false, NULL, metric_mass_drift, "mass",
+		"greatest relative change of the mass and what has left, in 1e-15"},
 	{"energy-rise", "rise in a step", "", -1, PARTNER_NONE, false, NULL, metric_series_rise,
 		"energy",
 		"how far the energy of P1 Theorem 1 rises between two records at most, over its first "
@@ -377,6 +389,8 @@ static const struct metric metrics[] = {
 		"the greatest velocity of the front after its first 0.04 s"},
 	{"front-velocity-time", "fastest at", "s", 3, PARTNER_NONE, false, NULL, front_velocity_time,
 		NULL, "when the front has that velocity"},
+	{"first-front-velocity", "front at first", "m/s", 3, PARTNER_NONE, false, NULL,
+		first_front_velocity, NULL, "the velocity of the front after its first 0.04 s"},
 	{"l2-observed", "l2 from observed", "%", 2, PARTNER_NONE, true, "h", l2_observed, NULL,
 		"difference in thickness from observations at a profile time, as l2-difference"},
 	{"front-observed", "front from observed", "%", 2, PARTNER_NONE, false, "front_position",

@@ -36,6 +36,7 @@ int metric_series_last(const struct sample *sample, double *out, struct error *e
 int metric_series_greatest(const struct sample *sample, double *out, struct error *err);
 int metric_series_least(const struct sample *sample, double *out, struct error *err);
 int metric_series_drift(const struct sample *sample, double *out, struct error *err);
+int metric_mass_drift(const struct sample *sample, double *out, struct error *err);
 int metric_series_rise(const struct sample *sample, double *out, struct error *err);
 int metric_series_rises(const struct sample *sample, double *out, struct error *err);
 int metric_series_loss(const struct sample *sample, double *out, struct error *err);
