@@ -37,6 +37,9 @@ void field_print_value(const struct field *field, const void *target, struct tex
 	case FIELD_REALS:
 		print_list(field, member, out);
 		break;
+	case FIELD_POINTS:
+		points_print(member, out);
+		break;
 	case FIELD_GROUP:
 		break;
 	}
@@ -70,6 +73,8 @@ static void describe(const struct field *field, struct text *out)
 		field_list_choices(field, out);
 	} else if (field->kind == FIELD_INTEGER) {
 		text_add(out, "a whole number");
+	} else if (field->kind == FIELD_POINTS) {
+		text_add(out, "the name of a file of two columns, or a list of points [x, value] in m");
 	} else {
 		if (field->kind == FIELD_REALS)
 			text_add(
