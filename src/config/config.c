@@ -136,7 +136,12 @@ static int check_rheology(
 		(void)error_set(err, EX_DATAERR, "rheology.law: linear is a law of model: immersed");
 		return field_blame(reader, "rheology.law", "model", -1, err);
 	}
-	if (config->rheology.law == LAW_LINEAR || config->rheology.mu_s <= config->rheology.mu_2)
+	if (config->rheology.law == LAW_CONSTANT && config->model != MODEL_DRY) {
+		(void)error_set(err, EX_DATAERR,
+			"rheology.law: constant is a law of model: dry; in the others linear with k_1: 0 is");
+		return field_blame(reader, "rheology.law", "model", -1, err);
+	}
+	if (config->rheology.law != LAW_MU_I || config->rheology.mu_s <= config->rheology.mu_2)
 		return 0;
 	(void)error_set(err, EX_DATAERR, "rheology: mu_s (%s) is above mu_2 (%s)",
 		text_real(config->rheology.mu_s, first), text_real(config->rheology.mu_2, second));
@@ -159,11 +164,38 @@ static int check_fractions(
 			fractions->count, config->layers);
 		return field_blame(reader, "layer_fractions", "layers", -1, err);
 	}
-	if (fabs(sum - 1) <= 1e-9)
+	if (!(fabs(sum - 1) <= 1e-9)) {
+		(void)error_set(
+			err, EX_DATAERR, "layer_fractions: they add up to %s, not to 1", text_real(sum, shown));
+		return field_blame(reader, "layer_fractions", NULL, -1, err);
+	}
+	if (config->model != MODEL_DRY || config->pressure == PRESSURE_HYDROSTATIC)
 		return 0;
-	(void)error_set(
-		err, EX_DATAERR, "layer_fractions: they add up to %s, not to 1", text_real(sum, shown));
-	return field_blame(reader, "layer_fractions", NULL, -1, err);
+	(void)error_set(err, EX_DATAERR,
+		"layer_fractions: they need pressure: hydrostatic; the non-hydrostatic pressure is solved "
+		"for on "
+		"equal layers");
+	return field_blame(reader, "layer_fractions", "pressure", -1, err);
+}
+
+/* What leaves at one end comes in at the other. */
+static int check_ends(
+	const struct config *config, const struct field_reader *reader, struct error *err)
+{
+	bool left = config->domain.left == BOUNDARY_PERIODIC;
+	bool right = config->domain.right == BOUNDARY_PERIODIC;
+
+	if (left != right) {
+		(void)error_set(err, EX_DATAERR, "domain: %s is periodic and %s is not; it takes both ends",
+			left ? "left" : "right", left ? "right" : "left");
+		return field_blame(reader, "domain.left", "domain.right", -1, err);
+	}
+	if (!left || config->pressure == PRESSURE_HYDROSTATIC)
+		return 0;
+	(void)error_set(err, EX_DATAERR,
+		"domain: periodic ends need pressure: hydrostatic; the solvers of the non-hydrostatic "
+		"pressure know walls and outflows");
+	return field_blame(reader, "domain.left", "pressure", -1, err);
 }
 
 /* Grains that do not sink have no weight to press them together. */
@@ -359,10 +391,10 @@ static int read_tree(struct config *config, const struct field_source *file,
 		if (collect_setting(&reader, &list[i], settings[i], err) != 0)
 			goto done;
 	if (field_convert(&reader, config, err) == 0 && check_layers(config, &reader, err) == 0 &&
-		check_domain(config, &reader, err) == 0 && check_rheology(config, &reader, err) == 0 &&
-		check_output(config, &reader, err) == 0 && check_operator(config, &reader, err) == 0 &&
-		check_fractions(config, &reader, err) == 0 && check_fluid(config, &reader, err) == 0 &&
-		check_geometry(config, &reader, err) == 0)
+		check_domain(config, &reader, err) == 0 && check_ends(config, &reader, err) == 0 &&
+		check_rheology(config, &reader, err) == 0 && check_output(config, &reader, err) == 0 &&
+		check_operator(config, &reader, err) == 0 && check_fractions(config, &reader, err) == 0 &&
+		check_fluid(config, &reader, err) == 0 && check_geometry(config, &reader, err) == 0)
 		status = 0;
 done:
 	for (int i = 0; i < count; i++)
