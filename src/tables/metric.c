@@ -105,6 +105,27 @@ static int runout(const struct sample *sample, double *out, struct error *err)
 	return 0;
 }
 
+/* In percent of that of the reference run. */
+static int runout_change(const struct sample *sample, double *out, struct error *err)
+{
+	struct sample other = *sample;
+	double reference;
+
+	other.file = sample->partner;
+	TRY(runout(&other, &reference, err));
+	TRY(runout(sample, out, err));
+	*out = 100 * (*out / reference - 1);
+	return 0;
+}
+
+/* h_f of P3, which falls as the bed gets thicker. */
+static int deposit_height(const struct sample *sample, double *out, struct error *err)
+{
+	TRY(metric_series_last(sample, out, err));
+	*out -= sample->config->erodible_bed_thickness;
+	return 0;
+}
+
 /* Profiles are stored at the very times that were asked for; the tolerance is for times written in other
  * units. */
 int metric_profile_row(struct run_file *file, double time, size_t *row, struct error *err)
@@ -369,6 +390,8 @@ static const struct metric metrics[] = {
 	{"steps", "steps", "", 0, PARTNER_NONE, false, NULL, steps, NULL, "number of time steps"},
 	{"runout", "runout", "m", 3, PARTNER_NONE, false, NULL, runout, "front_position",
 		"final position of the front, from the gate"},
+	{"runout-change", "change of runout", "%", 1, PARTNER_REFERENCE, false, NULL, runout_change,
+		"front_position", "how much longer the runout is than that of the `reference` run"},
 	{"stopping-time", "stopping time", "s", 3, PARTNER_NONE, false, NULL, stopping_time,
 		"max_speed", "the last time at which some layer is faster than output.static_speed"},
 	{"front-stopping-time", "front stops at", "s", 3, PARTNER_NONE, false, NULL, stopping_time,
@@ -377,6 +400,11 @@ static const struct metric metrics[] = {
 		"max_thickness", "the greatest thickness at the end"},
 	{"mass-drift", "mass drift", "1e-15", 1, PARTNER_NONE, false, NULL, metric_mass_drift, "mass",
 		"greatest relative change of the mass and what has left, in 1e-15"},
+	{"deposit-height", "height of deposit", "m", 4, PARTNER_NONE, false, NULL, deposit_height,
+		"max_thickness", "the same above the erodible bed layer"},
+	{"mean-velocity", "mean velocity", "m/s", 3, PARTNER_NONE, METRIC_COLUMN, NULL,
+		metric_mean_velocity, "u",
+		"velocity along the slope averaged over the layers, at a profile time and a position"},
 	{"energy-rise", "rise in a step", "", -1, PARTNER_NONE, false, NULL, metric_series_rise,
 		"energy",
 		"how far the energy of P1 Theorem 1 rises between two records at most, over its first "
