@@ -75,27 +75,30 @@ static int check_gate(
 	return field_blame(reader, "gate.speed", "topography.coordinates", -1, err);
 }
 
-/* P2's friction step knows one layer, on a bed that it slides over. */
+/* P2's friction step knows no layers. */
 static int check_friction(
 	const struct config *config, const struct field_reader *reader, struct error *err)
 {
-	const char *other = "layers";
-
 	if (config->scheme.friction == FRICTION_VISCOUS)
 		return 0;
-	if (config->layers > 1) {
+	if (config->walls.mu_w > 0 || config->bottom == BOTTOM_NO_SLIP ||
+		config->rheology.strain_rate == STRAIN_RATE_SECOND_ORDER) {
+		const char *key = config->walls.mu_w > 0             ? "walls.mu_w"
+						  : config->bottom == BOTTOM_NO_SLIP ? "bottom"
+															 : "rheology.strain_rate";
+
 		(void)error_set(err, EX_DATAERR,
-			"scheme.friction: coulomb stops a whole column, and here are %d layers that shear",
-			config->layers);
-	} else if (config->bottom == BOTTOM_NO_SLIP) {
-		(void)error_set(err, EX_DATAERR, "scheme.friction: coulomb slides, and bottom is no-slip");
-		other = "bottom";
-	} else if (config->walls.mu_w > 0) {
-		(void)error_set(err, EX_DATAERR,
-			"scheme.friction: coulomb knows the bottom alone, and walls.mu_w is not 0");
-		other = "walls.mu_w";
+			"scheme.friction: coulomb knows neither side walls nor viscous stresses, which %s asks "
+			"for",
+			key);
+		return field_blame(reader, "scheme.friction", key, -1, err);
 	}
-	return err->code ? field_blame(reader, "scheme.friction", other, -1, err) : 0;
+	if (config->layers == 1)
+		return 0;
+	(void)error_set(err, EX_DATAERR,
+		"scheme.friction: coulomb stops a whole column, and here are %d layers that shear",
+		config->layers);
+	return field_blame(reader, "scheme.friction", "layers", -1, err);
 }
 
 /* The config is kept in one attribute of the run file, of which HDF5 holds 64 kB. */

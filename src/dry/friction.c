@@ -239,11 +239,11 @@ KERNEL_PART void slow_or_stop(
 	double *restrict U = s->U + first, *restrict W = s->W + first;
 
 	for (int k = 0; k < c->cells; k++) {
-		double p = par.gc * c->hs[k] + 0.5 * (q[k] + q[k + 1]), weight = p > 0 ? p : 0;
-		double takes = dt * dry_mu(&par, fabs(u[k]) / c->h[k], weight) * weight;
+		double p = positive(par.gc * c->hs[k] + 0.5 * (q[k] + q[k + 1]));
+		double takes = dt * dry_mu(&par, fabs(u[k]) / c->h[k], p) * p;
 		double left = fabs(U[k]) - takes;
 
-		U[k] = left > 0 ? copysign(left, U[k]) : 0;
+		U[k] = left > 0 ? __builtin_copysign(left, U[k]) : 0;
 		W[k] = left > 0 ? W[k] : 0;
 	}
 }

@@ -78,7 +78,7 @@ static double evaluate(struct measured *measured, size_t index, struct run_file 
 	const struct metric *metric = measure->metric;
 	enum metric_partner kind = metric_partner(metric);
 	struct sample sample = {
-		.file = file, .config = &run->config, .at = measure->at, .metric = metric};
+		.file = file, .config = &run->config, .at = measure->at, .x = measure->x, .metric = metric};
 	struct error refusal = {0};
 	double value = NAN;
 

@@ -18,6 +18,9 @@ int metric_steady_l2(const struct sample *sample, double *out, struct error *err
 int metric_steady_linf(const struct sample *sample, double *out, struct error *err);
 int metric_layer_max(const struct sample *sample, double *out, struct error *err);
 
+/* metric_place.c: at a profile time and a position. */
+int metric_mean_velocity(const struct sample *sample, double *out, struct error *err);
+
 /* metric_reference.c: a profile over x against that of a finer reference run. */
 int metric_reference_l1(const struct sample *sample, double *out, struct error *err);
 
@@ -36,6 +39,7 @@ int metric_series_last(const struct sample *sample, double *out, struct error *e
 int metric_series_greatest(const struct sample *sample, double *out, struct error *err);
 int metric_series_least(const struct sample *sample, double *out, struct error *err);
 int metric_series_drift(const struct sample *sample, double *out, struct error *err);
+int metric_mass_drift(const struct sample *sample, double *out, struct error *err);
 int metric_series_rise(const struct sample *sample, double *out, struct error *err);
 int metric_series_rises(const struct sample *sample, double *out, struct error *err);
 int metric_series_loss(const struct sample *sample, double *out, struct error *err);
