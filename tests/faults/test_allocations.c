@@ -76,7 +76,7 @@ static const char setup[] =
 	"cat >study.yaml <<END\n"
 	"base: small.yaml\n"
 	"runs: [{layers: [2, 3]}]\n"
-	"tables: [{name: t, rows: layers, metric: [steps, runout, l2-difference],\n"
+	"tables: [{name: t, rows: pressure, columns: layers, metric: [steps, runout, l2-difference],\n"
 	"          reference: {layers: 3}}]\n"
 	"plots: [{name: p, panels: [{kind: metric, x: layers, y: runout}, {kind: profile, y: h, at: all, lines: [layers, at]}]}]\n"
 	"END\n"
