@@ -54,6 +54,8 @@ static const struct command {
 	{"dry-run", NULL, "talus campaign run --dry-run study.yaml", "true"},
 	{"status", NULL, "talus campaign status --json study.yaml", "true"},
 	{"why", NULL, "talus campaign why study.yaml layers-3", "true"},
+	{"watch", NULL, "talus campaign watch study.yaml", "true"},
+	{"prune", NULL, "talus campaign prune study.yaml -s rheology.mu_s=0.47 </dev/null", "true"},
 	{"tables", NULL, "talus tables study.yaml", "true"},
 	{"plot", NULL, "talus plot -f svg -o drawn straight", "! ls -A drawn | grep '^[.]'"},
 	{"figures", NULL, "talus plot -f svg -o drawn study.yaml", "! ls -A drawn | grep '^[.]'"},
