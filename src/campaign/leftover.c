@@ -128,7 +128,8 @@ static int add(const struct experiment *experiments, size_t count, const char *n
 	}
 	items = realloc(out->items, (out->count + 1) * sizeof *items);
 	run_report_read(leftover.folder, &leftover.report);
-	if (!items || leftover.report.unknown || is_beginning(experiments, count, &config, &beginning, err)) {
+	if (!items || leftover.report.unknown ||
+		is_beginning(experiments, count, &config, &beginning, err)) {
 		free(leftover.folder);
 		out->items = items ? items : out->items;
 		return err->code ? -1 : error_memory(err, (out->count + 1) * sizeof *items);

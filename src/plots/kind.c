@@ -298,8 +298,8 @@ static int add_places(const struct kind_request *request, const struct kind_run 
 }
 
 /* The axis of the dataset that stays: across the layers it is known by two names. */
-static const char *along_of(const struct kind *kind, const struct kind_run *run, const char *name,
-	struct error *err)
+static const char *along_of(
+	const struct kind *kind, const struct kind_run *run, const char *name, struct error *err)
 {
 	const char *layers = slice_layer_axis(run->file, name, err);
 

@@ -114,9 +114,8 @@ static void a_piece_that_is_missing_is_seen_by_the_trailer(void **state)
 	(void)state;
 	assert_int_equal(file_read(in_folder("a/run.h5"), &bytes, &size, &err), 0);
 	memmove(bytes + 4096, bytes + 4096 + PIECE, size - 4096 - PIECE);
-	assert_int_equal(
-		file_replace(&(struct file_place){.folder = in_folder("a"), .name = "run.h5"},
-			&(struct file_part){bytes, size - PIECE}, 1, &err),
+	assert_int_equal(file_replace(&(struct file_place){.folder = in_folder("a"), .name = "run.h5"},
+						 &(struct file_part){bytes, size - PIECE}, 1, &err),
 		0);
 	assert_int_equal(run_file_peek(in_folder("a/run.h5"), &summary, &peeked), -1);
 	assert_int_equal(peeked.code, EX_DATAERR);
