@@ -136,6 +136,7 @@ struct config {
 	struct {
 		int friction_reconstruction; /* enum reconstruction_kind: where dC of P1 (21) balances */
 		int friction_thickness;      /* enum thickness_kind: what carries the friction, P1 (25) */
+		int viscosity_updates;       /* coefficients of step 2 taken anew, times per step */
 	} scheme;
 	struct {
 		int method;         /* enum method_kind */
