@@ -43,7 +43,8 @@ static struct dry_parameters parameters(const struct config *config)
 		.front_threshold = config->output.front_threshold,
 		.static_speed = config->output.static_speed,
 		.fastest = config->time.wave_speed == WAVE_SPEED_FASTEST,
-		.static_balance = config->scheme.friction_reconstruction == RECONSTRUCTION_STATIC,
+		.reconstruction = config->scheme.friction_reconstruction,
+		.coulomb = config->scheme.friction == FRICTION_COULOMB,
 		.plain_thickness = config->scheme.friction_thickness == THICKNESS_PLAIN,
 		.non_hydrostatic = config->pressure == PRESSURE_NON_HYDROSTATIC,
 	};
@@ -393,7 +394,7 @@ static size_t arrays(struct model_state *s, struct array *list)
 
 const struct model dry_model = {
 	.name = "dry",
-	.numerics_version = 2,
+	.numerics_version = 3,
 	.series = dry_series,
 	.series_count = DRY_SERIES_COUNT,
 	.profiles = dry_profiles,

@@ -25,7 +25,8 @@ enum metric_partner {
 struct sample {
 	struct run_file *file;
 	const struct config *config;
-	struct run_file *partner;        /* of the kind the metric asks for, else NULL */
+	struct run_file *partner; /* of the kind the metric asks for, else NULL */
+	const struct config *partner_config;
 	double at;                       /* profile time, s */
 	double x;                        /* position, m */
 	const struct observed *observed; /* that have the dataset the metric observes, else NULL */
