@@ -438,6 +438,11 @@ static const struct {
 		 "slope=0 deg", "domain.right=wall"},
 		6},
 	{{"domain.cells=600", "time.end=0.02", "layers=1"}, 3},
+	{{"domain.cells=600", "time.end=0.02", "layers=20",
+		 "pressure_solver.method=conjugate-gradients"},
+		4},
+	{{"domain.cells=20", "time.end=0.2", "layers=20", "pressure_solver.method=conjugate-gradients"},
+		4},
 };
 
 /* The flow at time.end must be that of `s`, bit for bit, in another state of the same config. */
