@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
+
 enum { LINE = 64 }; /* bytes of a cache line */
 
 static size_t whole_lines(size_t bytes)
@@ -19,6 +21,7 @@ int arrays_allocate(const struct arrays_part *arrays, void **block, struct error
 
 	for (const struct arrays_part *array = arrays; array->pointer; array++)
 		total += whole_lines(array->bytes);
+	TRY(memory_check(total, err));
 	*block = calloc(total, 1);
 	if (!*block)
 		return error_memory(err, total);

@@ -18,7 +18,8 @@ struct arrays_part {
 		&(pointer), (count) * sizeof *(pointer)                                                    \
 	}
 
-/* Allocate arrays of zeros. `block` is what the caller frees. EX_SOFTWARE out of memory. */
+/* Allocate arrays of zeros. `block` is what the caller frees. EX_SOFTWARE out of memory, which
+ * leaves *block NULL. */
 int arrays_allocate(const struct arrays_part *arrays, void **block, struct error *err);
 
 #endif

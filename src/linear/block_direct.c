@@ -39,7 +39,7 @@ static int create(
 							ARRAY(m->given, all), ARRAY(m->sums, (size_t)columns.groups), {0}},
 			&m->block, err) != 0) {
 		destroy(m);
-		return -1;
+		return pressure_solver_too_large(block_direct.name, layers, faces, err);
 	}
 	*out = m;
 	return 0;
