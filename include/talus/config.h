@@ -140,6 +140,7 @@ struct config {
 		int exchange;                /* enum exchange_kind: velocity of what layers exchange */
 		int friction;                /* enum friction_kind: how step 2 takes it */
 		int friction_thickness;      /* enum thickness_kind: what carries the friction, P1 (25) */
+		int viscosity_updates;       /* coefficients of step 2 taken anew, times per step */
 	} scheme;
 	struct {
 		int method;         /* enum method_kind */

@@ -236,6 +236,9 @@ static const struct field fields[] = {
 		"(P2 step 2)"),
 	CHOICE("scheme.friction_thickness", scheme.friction_thickness, DRY, "well-balanced", thicknesses,
 		"thickness that carries the friction: well-balanced: P1 (25); plain: h (P1 Table 6b)"),
+	INTEGER(scheme.viscosity_updates, DRY, "0", "[0, 100]",
+		"how often step 2 is done again with the viscosity of its own result; 0: frozen as P1; with "
+		"1 or 2 hydrostatic runouts hardly depend on time.cfl"),
 
 	GROUP(pressure_solver, DRY, "the linear system of the non-hydrostatic pressure"),
 	CHOICE("pressure_solver.method", pressure_solver.method, DRY, "auto", methods,
