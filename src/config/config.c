@@ -136,7 +136,12 @@ static int check_rheology(
 		(void)error_set(err, EX_DATAERR, "rheology.law: linear is a law of model: immersed");
 		return field_blame(reader, "rheology.law", "model", -1, err);
 	}
-	if (config->rheology.law == LAW_LINEAR || config->rheology.mu_s <= config->rheology.mu_2)
+	if (config->rheology.law == LAW_CONSTANT && config->model != MODEL_DRY) {
+		(void)error_set(err, EX_DATAERR,
+			"rheology.law: constant is a law of model: dry; in the others linear with k_1: 0 is");
+		return field_blame(reader, "rheology.law", "model", -1, err);
+	}
+	if (config->rheology.law != LAW_MU_I || config->rheology.mu_s <= config->rheology.mu_2)
 		return 0;
 	(void)error_set(err, EX_DATAERR, "rheology: mu_s (%s) is above mu_2 (%s)",
 		text_real(config->rheology.mu_s, first), text_real(config->rheology.mu_2, second));
@@ -159,11 +164,38 @@ static int check_fractions(
 			fractions->count, config->layers);
 		return field_blame(reader, "layer_fractions", "layers", -1, err);
 	}
-	if (fabs(sum - 1) <= 1e-9)
+	if (!(fabs(sum - 1) <= 1e-9)) {
+		(void)error_set(
+			err, EX_DATAERR, "layer_fractions: they add up to %s, not to 1", text_real(sum, shown));
+		return field_blame(reader, "layer_fractions", NULL, -1, err);
+	}
+	if (config->model != MODEL_DRY || config->pressure == PRESSURE_HYDROSTATIC)
 		return 0;
-	(void)error_set(
-		err, EX_DATAERR, "layer_fractions: they add up to %s, not to 1", text_real(sum, shown));
-	return field_blame(reader, "layer_fractions", NULL, -1, err);
+	(void)error_set(err, EX_DATAERR,
+		"layer_fractions: they need pressure: hydrostatic; the non-hydrostatic pressure is solved "
+		"for on "
+		"equal layers");
+	return field_blame(reader, "layer_fractions", "pressure", -1, err);
+}
+
+/* What leaves at one end comes in at the other. */
+static int check_ends(
+	const struct config *config, const struct field_reader *reader, struct error *err)
+{
+	bool left = config->domain.left == BOUNDARY_PERIODIC;
+	bool right = config->domain.right == BOUNDARY_PERIODIC;
+
+	if (left != right) {
+		(void)error_set(err, EX_DATAERR, "domain: %s is periodic and %s is not; it takes both ends",
+			left ? "left" : "right", left ? "right" : "left");
+		return field_blame(reader, "domain.left", "domain.right", -1, err);
+	}
+	if (!left || config->pressure == PRESSURE_HYDROSTATIC)
+		return 0;
+	(void)error_set(err, EX_DATAERR,
+		"domain: periodic ends need pressure: hydrostatic; the solvers of the non-hydrostatic "
+		"pressure know walls and outflows");
+	return field_blame(reader, "domain.left", "pressure", -1, err);
 }
 
 /* Grains that do not sink have no weight to press them together. */
@@ -180,19 +212,56 @@ static int check_fluid(
 	return field_blame(reader, "fluid.density", "grains.density", -1, err);
 }
 
-static int check_output(
+/* The times that would do are told as they are to be set: the commonest way here is an earlier end. */
+static int check_times(
 	const struct config *config, const struct field_reader *reader, struct error *err)
 {
 	const struct real_list *times = &config->output.profiles_at;
 	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
+	struct text kept = {0};
+	int good = 0;
 
-	for (int i = 0; i < times->count; i++)
-		if (times->values[i] > config->time.end) {
-			(void)error_set(err, EX_DATAERR, "output.profiles_at: %s s is after time.end (%s s)",
-				text_real(times->values[i], first), text_real(config->time.end, second));
-			return field_blame(reader, "output.profiles_at", "time.end", i, err);
-		}
+	while (good < times->count && times->values[good] <= config->time.end) {
+		text_addf(&kept, "%s%s", good ? "," : "", text_real(times->values[good], first));
+		good++;
+	}
+	if (good < times->count)
+		(void)error_set(err, EX_DATAERR,
+			"output.profiles_at: %s s is after time.end (%s s); an earlier end wants fewer times: "
+			"output.profiles_at=[%s]",
+			text_real(times->values[good], first), text_real(config->time.end, second),
+			text_string(&kept));
+	text_clean(&kept);
+	return good < times->count ? field_blame(reader, "output.profiles_at", "time.end", good, err)
+							   : 0;
+}
+
+static int check_positions(const struct config *config, const char *key,
+	const struct real_list *positions, const struct field_reader *reader, struct error *err)
+{
+	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
+
+	for (int i = 0; i < positions->count; i++) {
+		double x = positions->values[i];
+		bool left = x < config->domain.x_min;
+
+		if (!left && x <= config->domain.x_max)
+			continue;
+		(void)error_set(err, EX_DATAERR, "%s: %s m is outside the domain, %s m is its %s", key,
+			text_real(x, first),
+			text_real(left ? config->domain.x_min : config->domain.x_max, second),
+			left ? "x_min" : "x_max");
+		return field_blame(reader, key, left ? "domain.x_min" : "domain.x_max", i, err);
+	}
 	return 0;
+}
+
+static int check_output(
+	const struct config *config, const struct field_reader *reader, struct error *err)
+{
+	TRY(check_times(config, reader, err));
+	TRY(check_positions(config, "output.gauges", &config->output.gauges, reader, err));
+	return check_positions(config, "output.velocity_at", &config->output.velocity_at, reader, err);
 }
 
 static int read_tree(struct config *config, const struct field_source *file,
@@ -214,9 +283,10 @@ static int read_tree(struct config *config, const struct field_source *file,
 		if (collect_setting(&reader, &list[i], settings[i], err) != 0)
 			goto done;
 	if (field_convert(&reader, config, err) == 0 && check_layers(config, &reader, err) == 0 &&
-		check_domain(config, &reader, err) == 0 && check_rheology(config, &reader, err) == 0 &&
-		check_output(config, &reader, err) == 0 && check_operator(config, &reader, err) == 0 &&
-		check_fractions(config, &reader, err) == 0 && check_fluid(config, &reader, err) == 0)
+		check_domain(config, &reader, err) == 0 && check_ends(config, &reader, err) == 0 &&
+		check_rheology(config, &reader, err) == 0 && check_output(config, &reader, err) == 0 &&
+		check_operator(config, &reader, err) == 0 && check_fractions(config, &reader, err) == 0 &&
+		check_fluid(config, &reader, err) == 0 && config_check_geometry(config, &reader, err) == 0)
 		status = 0;
 done:
 	for (int i = 0; i < count; i++)
@@ -330,19 +400,6 @@ bool config_is_whole(const char *key)
 	return field && field->kind == FIELD_INTEGER;
 }
 
-bool config_is_alike(const struct config *a, const struct config *b)
-{
-	struct config other = *a;
-	struct text keys = {0};
-	bool alike;
-
-	other.time.end = b->time.end;
-	field_differences(&config_table, &other, b, &keys);
-	alike = !keys.length && !keys.failed;
-	text_clean(&keys);
-	return alike;
-}
-
 void config_differences(const struct config *a, const struct config *b, struct text *out)
 {
 	field_differences(&config_table, a, b, out);
@@ -374,5 +431,5 @@ int config_value(const struct config *config, const char *key, struct text *out,
 	if (!field_applies(&config_table, field, config))
 		return field_inapplicable(&config_table, field, config, err);
 	field_print_value(field, config, out);
-	return 0;
+	return out->failed ? error_memory(err, out->capacity) : 0;
 }

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "case/initial.h"
+#include "case/topography.h"
 #include "dry/chunk.h"
 #include "dry/dry.h"
 
@@ -19,21 +20,34 @@ static struct dry_parameters parameters(const struct config *config)
 {
 	return (struct dry_parameters){
 		/* in long double: cos and tan in double are chosen by processor and differ in bits */
-		.gc = GRAVITY * (double)cosl(config->slope),
+		.gc = config->coordinates == COORDINATES_CARTESIAN ? GRAVITY
+														   : GRAVITY * (double)cosl(config->slope),
 		.tan_slope = (double)tanl(config->slope),
 		.rho = config->grains.solid_fraction * config->grains.density,
 		.mu_s = config->rheology.mu_s,
-		.mu_2 = config->rheology.mu_2,
+		.mu_2 =
+			config->rheology.law == LAW_CONSTANT ? config->rheology.mu_s : config->rheology.mu_2,
 		.i_0 = config->rheology.i_0,
 		.inertia = config->grains.diameter / sqrt(config->grains.solid_fraction),
 		.delta_strain = config->regularisation.strain_rate,
 		.delta_velocity = config->regularisation.velocity,
+		.largest_viscosity = config->regularisation.largest_viscosity,
+		.walls = 2 * config->walls.mu_w / config->walls.width,
+		.bottom_gap = config->bottom == BOTTOM_NO_SLIP ? 0.5 : 1,
+		.friction = {.no_slip = config->bottom == BOTTOM_NO_SLIP,
+			.second_order = config->rheology.strain_rate == STRAIN_RATE_SECOND_ORDER,
+			.bounded = config->regularisation.viscosity == VISCOSITY_BOUNDED,
+			.walls = config->walls.mu_w > 0},
 		.bed = config->erodible_bed_thickness,
 		.cfl = config->time.cfl,
 		.front_threshold = config->output.front_threshold,
 		.static_speed = config->output.static_speed,
 		.fastest = config->time.wave_speed == WAVE_SPEED_FASTEST,
-		.static_balance = config->scheme.friction_reconstruction == RECONSTRUCTION_STATIC,
+		.reconstruction = config->scheme.friction_reconstruction,
+		.upwind = config->scheme.exchange == EXCHANGE_UPWIND,
+		.coulomb = config->scheme.friction == FRICTION_COULOMB,
+		.plain_thickness = config->scheme.friction_thickness == THICKNESS_PLAIN,
+		.viscosity_updates = config->scheme.viscosity_updates,
 		.non_hydrostatic = config->pressure == PRESSURE_NON_HYDROSTATIC,
 	};
 }
@@ -48,14 +62,15 @@ static double *place(double **next, size_t count)
 	return part;
 }
 
-static size_t layout(struct model_state *s, double *memory)
+static size_t layout(struct model_state *s, bool cartesian, double *memory)
 {
 	size_t stride = s->grid.stride, faces = (size_t)s->grid.faces, n = (size_t)s->layers;
-	size_t coarse = (size_t)s->coarse.layers;
+	size_t coarse = (size_t)s->coarse.layers, before = s->par.viscosity_updates > 0 ? n : 0;
 	double *next = memory;
 
 	s->h = place(&next, stride);
 	s->b = place(&next, stride);
+	s->bed = cartesian ? place(&next, stride) : s->b;
 	s->U = place(&next, n * stride);
 	s->W = place(&next, n * stride);
 	s->u = place(&next, n * stride);
@@ -70,12 +85,14 @@ static size_t layout(struct model_state *s, double *memory)
 	for (size_t i = 0; i < sizeof s->face / sizeof *s->face; i++)
 		s->face[i] = place(&next, faces);
 	s->work = place(&next, n * stride);
+	s->before = before ? place(&next, before * stride) : NULL;
+	s->level = place(&next, n + 1);
 	s->x = place(&next, stride);
 	s->layer_middle = place(&next, n);
 	s->layer_interface = place(&next, n + 1);
 	s->coarse.u = coarse ? place(&next, coarse * stride) : NULL;
 	s->coarse.w = coarse ? place(&next, coarse * stride) : NULL;
-	return (7 + 5 * n + 2 * coarse) * stride + (6 + 2 * n) * faces + 2 * n + 3;
+	return (7 + cartesian + 5 * n + before + 2 * coarse) * stride + (6 + 2 * n) * faces + 3 * n + 4;
 }
 
 static int projection_init(struct model_state *s, const struct config *config,
@@ -106,25 +123,60 @@ static void destroy(struct model_state *s)
 	free(s);
 }
 
-static void fill(struct model_state *s, const struct config *config)
+/* The interfaces, from the fractions; exact where these are equal. */
+static void fill_levels(struct model_state *s, const struct real_list *fractions)
+{
+	double sum = 0, below = 0;
+
+	for (int a = 0; a < fractions->count; a++)
+		sum += fractions->values[a];
+	for (int a = 0; a <= s->layers; a++) {
+		s->level[a] = fractions->count && a < s->layers ? below / sum * s->layers : a;
+		below += a < fractions->count ? fractions->values[a] : 0;
+		s->layer_interface[a] = s->level[a] / s->layers;
+	}
+	for (int a = 0; a < s->layers; a++)
+		s->layer_middle[a] = 0.5 * (s->level[a] + s->level[a + 1]) / s->layers;
+}
+
+/* In Cartesian coordinates the plane is a part of the bed (P2 4.1); it goes on beyond the ends. */
+static void add_plane(struct model_state *s, const struct config *config)
+{
+	for (int i = 0; i <= s->grid.cells + 1; i++)
+		s->bed[i] = s->b[i] + topography_plane(config, grid_centre(&s->grid, i));
+}
+
+static void open_gate(struct model_state *s, const struct config *config)
+{
+	for (int a = 0; a < s->layers; a++)
+		for (int i = 1; i <= s->grid.cells; i++)
+			s->W[(size_t)a * s->grid.stride + (size_t)i] =
+				s->h[i] * initial_velocity(config, grid_centre(&s->grid, i));
+	dry_velocities(s);
+}
+
+static int fill(struct model_state *s, const struct config *config, struct error *err)
 {
 	double mass = 0;
 
-	initial_thickness(config, &s->grid, s->h);
+	fill_levels(s, &config->layer_fractions);
+	TRY(initial_fill(config, &s->grid, s->b, s->h, err));
+	if (s->bed != s->b)
+		add_plane(s, config);
 	for (int i = 1; i <= s->grid.cells; i++) {
 		s->x[i - 1] = grid_centre(&s->grid, i);
 		mass += s->h[i];
 	}
 	s->mass[0] = s->par.rho * mass * s->grid.dx;
-	for (int a = 0; a < s->layers; a++)
-		s->layer_middle[a] = (a + 0.5) / s->layers;
-	for (int a = 0; a <= s->layers; a++)
-		s->layer_interface[a] = (double)a / s->layers;
+	if (config->gate.speed != 0)
+		open_gate(s, config);
+	return 0;
 }
 
 static int create(const struct config *config, struct model_state **out, struct error *err)
 {
 	struct model_state *s = calloc(1, sizeof *s);
+	bool cartesian = config->coordinates == COORDINATES_CARTESIAN;
 	size_t count;
 
 	if (!s)
@@ -143,29 +195,29 @@ static int create(const struct config *config, struct model_state **out, struct 
 		.max_iterations = config->pressure_solver.max_iterations};
 	s->start_previous = config->pressure_solver.start == START_PREVIOUS;
 	s->coarse.layers = s->par.non_hydrostatic ? config->n_ini_guess : 0;
-	count = layout(s, NULL);
+	count = layout(s, cartesian, NULL);
 	s->memory = calloc(count, sizeof *s->memory);
 	s->dry = calloc((size_t)s->grid.faces, sizeof *s->dry);
 	if (!s->memory || !s->dry) {
 		destroy(s);
 		return error_memory(err, count * sizeof *s->memory);
 	}
-	(void)layout(s, s->memory);
+	(void)layout(s, cartesian, s->memory);
 	if ((s->par.non_hydrostatic && projection_init(s, config, &s->full, err)) ||
-		(s->coarse.layers && projection_init(s, config, &s->coarse, err))) {
+		(s->coarse.layers && projection_init(s, config, &s->coarse, err)) || fill(s, config, err)) {
 		destroy(s);
 		return -1;
 	}
-	fill(s, config);
 	*out = s;
 	return 0;
 }
 
-/* Velocities of a layer, and what they add to the sums over the layers; w is 0 and stays so where the
- * pressure is hydrostatic. */
-KERNEL_PART void layer_velocities(int cells, bool hydrostatic, const double *restrict inverse,
-	const double *restrict U, const double *restrict W, double *restrict u, double *restrict w,
-	double *restrict sum, double *restrict fastest, double *restrict squares)
+/* Velocities of a layer of thickness `layer` (in mean ones), and what they add to the sums over the
+ * layers; w is 0 and stays so where the pressure is hydrostatic. */
+KERNEL_PART void layer_velocities(int cells, bool hydrostatic, double layer,
+	const double *restrict inverse, const double *restrict U, const double *restrict W,
+	double *restrict u, double *restrict w, double *restrict sum, double *restrict fastest,
+	double *restrict squares)
 {
 	for (int k = 0; k < cells; k++) {
 		double along = U[k] * inverse[k], normal = hydrostatic ? 0 : W[k] * inverse[k];
@@ -174,9 +226,9 @@ KERNEL_PART void layer_velocities(int cells, bool hydrostatic, const double *res
 		u[k] = along;
 		if (!hydrostatic)
 			w[k] = normal;
-		sum[k] += along;
+		sum[k] += layer * along;
 		fastest[k] = speed > fastest[k] ? speed : fastest[k];
-		squares[k] += along * along + normal * normal;
+		squares[k] += layer * (along * along + normal * normal);
 	}
 }
 
@@ -197,12 +249,14 @@ KERNEL static void velocities(struct model_state *s, struct chunk chunk, double 
 	for (int k = 0; k < cells; k++)
 		inverse[k] = h[k] > DRY_NO_MOMENTUM ? 1 / h[k] : 0;
 	for (int a = 0; a < s->layers; a++, row += s->grid.stride) {
+		double layer = dry_layer(s, a);
+
 		if (s->par.non_hydrostatic)
-			layer_velocities(cells, false, inverse, s->U + row, s->W + row, s->u + row, s->w + row,
-				mean, fastest, squares);
+			layer_velocities(cells, false, layer, inverse, s->U + row, s->W + row, s->u + row,
+				s->w + row, mean, fastest, squares);
 		else
-			layer_velocities(cells, true, inverse, s->U + row, s->W + row, s->u + row, s->w + row,
-				mean, fastest, squares);
+			layer_velocities(cells, true, layer, inverse, s->U + row, s->W + row, s->u + row,
+				s->w + row, mean, fastest, squares);
 	}
 	for (int k = 0; k < cells; k++)
 		mean[k] /= s->layers;
@@ -274,11 +328,15 @@ static int check(const struct model_state *s, struct error *err)
 {
 	for (int i = 1; i <= s->grid.cells; i++) {
 		if (s->h[i] < 0)
-			return error_set(err, EX_FAILED, "negative thickness %g m at x = %g m", s->h[i],
-				grid_centre(&s->grid, i));
+			return error_set(err, EX_FAILED,
+				"negative thickness %g m at x = %g m; a time.cfl below %g may carry it", s->h[i],
+				grid_centre(&s->grid, i), s->par.cfl);
 		if (!isfinite(s->h[i] + s->squares[i]))
-			return error_set(err, EX_FAILED, "the state is not finite (thickness %g m) at x = %g m",
-				s->h[i], grid_centre(&s->grid, i));
+			return error_set(err, EX_FAILED,
+				"the state is not finite (thickness %g m) at x = %g m; a time.cfl below %g may "
+				"carry "
+				"it",
+				s->h[i], grid_centre(&s->grid, i), s->par.cfl);
 	}
 	return 0;
 }

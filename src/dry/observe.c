@@ -11,6 +11,8 @@ enum {
 	MASS,
 	MASS_OUTFLOW,
 	ENERGY,
+	KINETIC_ENERGY,
+	POTENTIAL_ENERGY,
 	PRESSURE_ITERATIONS,
 	COARSE_ITERATIONS,
 	PRESSURE_RESIDUAL,
@@ -50,6 +52,14 @@ const struct series dry_series[DRY_SERIES_COUNT] = {
 		.units = "J m-1",
 		.long_name = "kinetic and potential energy per unit width (P1 Theorem 1)",
 		.slope_of = -1},
+	[KINETIC_ENERGY] = {.name = "kinetic_energy",
+		.units = "J m-1",
+		.long_name = "kinetic energy per unit width",
+		.slope_of = -1},
+	[POTENTIAL_ENERGY] = {.name = "potential_energy",
+		.units = "J m-1",
+		.long_name = "potential energy per unit width, 0 at the right end of the reference plane",
+		.slope_of = -1},
 	[PRESSURE_ITERATIONS] = {.name = "pressure_iterations",
 		.units = "1",
 		.long_name = "iterations of the pressure solver in the step",
@@ -88,7 +98,16 @@ const struct series dry_series[DRY_SERIES_COUNT] = {
 		.per_step_sum = true},
 };
 
-enum { BED, THICKNESS, STATIC_HEIGHT, VELOCITY, NORMAL_VELOCITY, PRESSURE };
+enum {
+	BED,
+	THICKNESS,
+	STATIC_HEIGHT,
+	VELOCITY,
+	NORMAL_VELOCITY,
+	PRESSURE,
+	BOTTOM_DISSIPATION,
+	LAYER_DISSIPATION,
+};
 
 const struct profile dry_profiles[DRY_PROFILE_COUNT] = {
 	[BED] = {"b", "m", "bed above the reference plane", PROFILE_X, true},
@@ -99,6 +118,10 @@ const struct profile dry_profiles[DRY_PROFILE_COUNT] = {
 	[NORMAL_VELOCITY] = {"w", "m s-1", "layer velocity normal to the slope", PROFILE_LAYER_X,
 		false},
 	[PRESSURE] = {"p", "Pa", "total pressure at the layer interfaces", PROFILE_INTERFACE_X, false},
+	[BOTTOM_DISSIPATION] = {"bottom_dissipation", "W m-2",
+		"power of the friction at the bottom (P1 Theorem 1)", PROFILE_X, false},
+	[LAYER_DISSIPATION] = {"layer_dissipation", "W m-2",
+		"power of the friction between the layers (P1 Theorem 1)", PROFILE_X, false},
 };
 
 /* Rightmost crossing of h - h_i = threshold, linear between the cell centres; NaN: none. */
@@ -118,17 +141,21 @@ static double front(const struct model_state *s)
 }
 
 /* P1 Theorem 1 summed over the domain, times rho: J/m. */
-static double energy(const struct model_state *s)
+static void energies(const struct model_state *s, double *values)
 {
-	double sum = 0, end = s->grid.x_min + s->grid.cells * s->grid.dx;
+	double sum = 0, kinetic = 0, end = s->grid.x_min + s->grid.cells * s->grid.dx;
+	double scale = s->par.rho * s->grid.dx;
 
 	for (int i = 1; i <= s->grid.cells; i++) {
 		double plane = (end - grid_centre(&s->grid, i)) * s->par.tan_slope;
+		double moving = 0.5 * s->squares[i] / s->layers;
 
-		sum += s->h[i] *
-			   (0.5 * s->squares[i] / s->layers + s->par.gc * (plane + s->b[i] + 0.5 * s->h[i]));
+		sum += s->h[i] * (moving + s->par.gc * (plane + s->b[i] + 0.5 * s->h[i]));
+		kinetic += s->h[i] * moving;
 	}
-	return s->par.rho * s->grid.dx * sum;
+	values[ENERGY] = scale * sum;
+	values[KINETIC_ENERGY] = scale * kinetic;
+	values[POTENTIAL_ENERGY] = values[ENERGY] - values[KINETIC_ENERGY];
 }
 
 void dry_observe(const struct model_state *s, double *values)
@@ -145,7 +172,7 @@ void dry_observe(const struct model_state *s, double *values)
 	values[MAX_THICKNESS] = thickest;
 	values[MASS] = s->par.rho * s->grid.dx * mass;
 	values[MASS_OUTFLOW] = s->mass[1];
-	values[ENERGY] = energy(s);
+	energies(s, values);
 	values[PRESSURE_ITERATIONS] = s->iterations;
 	values[COARSE_ITERATIONS] = s->coarse_iterations;
 	values[PRESSURE_RESIDUAL] = s->residual;
@@ -161,7 +188,8 @@ static double static_height(const struct model_state *s, int i)
 	double limit = s->par.static_speed, slower = 0, slower_at = 0, dz = s->h[i] / s->layers;
 
 	for (int a = 0; a < s->layers; a++) {
-		double speed = fabs(s->u[(size_t)a * s->grid.stride + (size_t)i]), at = (a + 0.5) * dz;
+		double speed = fabs(s->u[(size_t)a * s->grid.stride + (size_t)i]),
+			   at = 0.5 * (s->level[a] + s->level[a + 1]) * dz;
 
 		if (speed >= limit)
 			return a == 0 ? 0 : slower_at + (at - slower_at) * (limit - slower) / (speed - slower);
@@ -175,16 +203,18 @@ static double static_height(const struct model_state *s, int i)
 static void diagnose_w(const struct model_state *s, double *values)
 {
 	int cells = s->grid.cells;
-	double n = s->layers, width = 2 * s->grid.dx;
-	const double *h = s->h, *b = s->b;
+	double width = 2 * s->grid.dx;
+	const double *h = s->h, *b = s->bed;
 
 	for (int i = 1; i <= cells; i++) {
 		double below = 0;
 
 		for (int a = 0; a < s->layers; a++) {
 			const double *u = s->u + (size_t)a * s->grid.stride;
-			double flux = (h[i + 1] * u[i + 1] - h[i - 1] * u[i - 1]) / (n * width);
-			double middle = (b[i + 1] - b[i - 1] + (a + 0.5) / n * (h[i + 1] - h[i - 1])) / width;
+			double flux =
+				(h[i + 1] * u[i + 1] - h[i - 1] * u[i - 1]) / (dry_layers_of(s, a) * width);
+			double middle =
+				(b[i + 1] - b[i - 1] + s->layer_middle[a] * (h[i + 1] - h[i - 1])) / width;
 
 			values[(size_t)a * (size_t)cells + (size_t)(i - 1)] =
 				u[i] * middle - below - 0.5 * flux;
@@ -203,7 +233,8 @@ static void total_pressure(const struct model_state *s, double *values)
 			double fluctuation = a < s->layers ? 0.5 * (q[-1] + q[0]) : 0;
 
 			values[(size_t)a * cells + i - 1] =
-				s->par.rho * (s->par.gc * s->h[i] * (s->layers - a) / s->layers + fluctuation);
+				s->par.rho *
+				(s->par.gc * s->h[i] * (s->layers - s->level[a]) / s->layers + fluctuation);
 		}
 }
 
@@ -220,7 +251,7 @@ void dry_profile(const struct model_state *s, size_t index, double *values)
 {
 	switch (index) {
 	case BED:
-		copy_cells(s, s->b, 1, values);
+		copy_cells(s, s->bed, 1, values);
 		break;
 	case THICKNESS:
 		copy_cells(s, s->h, 1, values);
@@ -238,7 +269,10 @@ void dry_profile(const struct model_state *s, size_t index, double *values)
 		else
 			diagnose_w(s, values);
 		break;
-	default:
+	case PRESSURE:
 		total_pressure(s, values);
+		break;
+	default:
+		dry_dissipation(s, index == LAYER_DISSIPATION, values);
 	}
 }

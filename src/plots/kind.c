@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "case/turn.h"
 #include "config/quantity.h"
 #include "plots/meaning.h"
 #include "plots/slice.h"
@@ -159,6 +160,15 @@ static void multiply(double *values, size_t count, double factor)
 		values[i] *= factor;
 }
 
+static void leave_bed_out(const struct kind_request *request, const struct kind_run *run,
+	const char *name, double *values, size_t count)
+{
+	if (!request->wanted->above_bed || !run->config || strcmp(name, "h") != 0)
+		return;
+	for (size_t i = 0; i < count; i++)
+		values[i] -= run->config->erodible_bed_thickness;
+}
+
 static int lacks(const struct kind_request *request, const struct kind_run *run, struct error *err)
 {
 	if (err->code != EX_DATAERR && err->code != EX_NOINPUT)
@@ -219,6 +229,7 @@ static int add_slice(const struct kind_request *request, const struct kind_run *
 	if (!strcmp(place->along, "time"))
 		for (size_t i = 0; i < slice->count && slice->axis[i] < meaning_settles(name); i++)
 			slice->values[i] = NAN;
+	leave_bed_out(request, run, name, slice->values, slice->count);
 	TRY(dataset_axis(request, run, kind->upright ? 0 : 1, name, &factor, err));
 	multiply(slice->values, slice->count, factor);
 	if (kind->upright) {
@@ -231,6 +242,47 @@ static int add_slice(const struct kind_request *request, const struct kind_run *
 	curve->y = kind->upright ? slice->axis : slice->values;
 	curve->count = slice->count;
 	*slice = (struct slice){0};
+	return 0;
+}
+
+/* The thickness over x in the other coordinates, where the plot asks for them. */
+static int turn(const struct kind_request *request, const struct kind_run *run, const char *name,
+	const struct slice_place *place, struct slice *slice, struct error *err)
+{
+	int wanted = request->wanted->coordinates;
+	struct slice_place everywhere = *place;
+	struct slice b = {0};
+	struct config other;
+	struct grid onto;
+	double *turned = NULL, scale;
+
+	if (wanted == GIVEN_SAME || !run->config || strcmp(place->along, "x") != 0 ||
+		(wanted == GIVEN_CARTESIAN) == (run->config->coordinates == COORDINATES_CARTESIAN))
+		return 0;
+	if (strcmp(name, "h") != 0)
+		return error_set(
+			err, EX_DATAERR, "'%s' cannot be shown in other coordinates, only h can", name);
+	other = *run->config;
+	scale = wanted == GIVEN_CARTESIAN ? cos(other.slope) : 1 / cos(other.slope);
+	other.domain.x_min *= scale;
+	other.domain.x_max *= scale;
+	onto = grid_make(&other);
+	turned = malloc((size_t)onto.cells * sizeof *turned);
+	if (!turned)
+		return error_memory(err, (size_t)onto.cells * sizeof *turned);
+	if (slice_read(run->file, "b", &everywhere, &b, err) || b.count != slice->count ||
+		onto.cells != (int)slice->count ||
+		turn_profile(
+			run->config, slice->axis, b.values, slice->values, onto.cells, &onto, turned, err)) {
+		slice_clean(&b);
+		free(turned);
+		return error_set(err, EX_DATAERR, "the thickness is not as long as the bed");
+	}
+	slice_clean(&b);
+	free(slice->values);
+	slice->values = turned;
+	for (int i = 1; i <= onto.cells; i++)
+		slice->axis[i - 1] = grid_centre(&onto, i);
 	return 0;
 }
 
@@ -247,7 +299,8 @@ static int add_cut(const struct kind_request *request, const struct kind_run *ru
 	struct curve *curve;
 	int result = -1;
 
-	if (slice_read(run->file, name, &cut->place, &slice, err)) {
+	if (slice_read(run->file, name, &cut->place, &slice, err) ||
+		turn(request, run, name, &cut->place, &slice, err)) {
 		slice_clean(&slice);
 		return lacks(request, run, err);
 	}
@@ -272,12 +325,14 @@ static int add_places(const struct kind_request *request, const struct kind_run 
 {
 	const struct kind_cuts *cuts = request->cuts;
 	const struct experiment_panel *wanted = request->wanted;
-	const char *layers = slice_layer_axis(run->file, name);
-	bool has_x = strcmp(at->place.along, "x") != 0 && slice_has_axis(run->file, name, "x");
+	const char *layers = slice_layer_axis(run->file, name, err);
+	bool has_x = strcmp(at->place.along, "x") != 0 && slice_has_axis(run->file, name, "x", err);
 	bool has_layers = layers && strcmp(at->place.along, layers) != 0;
 	size_t positions = has_x && cuts->position_count ? cuts->position_count : 1;
 	size_t count = has_layers && cuts->layer_count ? cuts->layer_count : 1;
 
+	if (err->code)
+		return -1;
 	for (size_t i = 0; i < positions; i++)
 		for (size_t k = 0; k < count; k++) {
 			struct cut cut = *at;
@@ -296,9 +351,10 @@ static int add_places(const struct kind_request *request, const struct kind_run 
 }
 
 /* The axis of the dataset that stays: across the layers it is known by two names. */
-static const char *along_of(const struct kind *kind, const struct kind_run *run, const char *name)
+static const char *along_of(
+	const struct kind *kind, const struct kind_run *run, const char *name, struct error *err)
 {
-	const char *layers = slice_layer_axis(run->file, name);
+	const char *layers = slice_layer_axis(run->file, name, err);
 
 	return !strcmp(kind->along, "layer") && layers ? layers : kind->along;
 }
@@ -307,13 +363,15 @@ static int add_lines(const struct kind_request *request, const struct kind_run *
 	const char *name, const struct kind *kind, struct error *err)
 {
 	const struct kind_cuts *cuts = request->cuts;
-	bool timed =
-		strcmp(kind->along, "profile_time") != 0 && slice_has_axis(run->file, name, "profile_time");
-	struct cut cut = {.place = {along_of(kind, run, name), NAN, NAN, SLICE_FIRST}};
+	bool timed = strcmp(kind->along, "profile_time") != 0 &&
+				 slice_has_axis(run->file, name, "profile_time", err);
+	struct cut cut = {.place = {along_of(kind, run, name, err), NAN, NAN, SLICE_FIRST}};
 	double *times = NULL, stride;
 	size_t count = 0;
 	int result = 0;
 
+	if (err->code)
+		return -1;
 	if (!timed || (!cuts->all_times && !cuts->time_count))
 		return add_places(request, run, kind, name, &cut, err);
 	if (cuts->all_times && slice_axis(run->file, "profile_time", &times, &count, err))
@@ -365,6 +423,7 @@ static int add_map(const struct kind_request *request, const struct kind_run *ru
 			error_memory(err, map.rows * map.columns * sizeof *map.values);
 			goto done;
 		}
+		leave_bed_out(request, run, name, slice.values, slice.count);
 		memcpy(map.values + row * map.columns, slice.values, map.columns * sizeof *map.values);
 	}
 	map.x = slice.axis;
