@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/commands.h"
 #include "run/run_file_parts.h"
+#include "tables/metric.h"
 #include "talus/config.h"
 
 static const char help[] =
@@ -55,6 +56,37 @@ static int add_attribute(
 	return 0;
 }
 
+/* What the run came to, as tables have it; what a model has no dataset for is passed over. */
+static int add_outcome(
+	struct run_file *file, const struct config *config, struct text *out, struct error *err)
+{
+	static const char *const names[] = {"runout", "front-stopping-time", "stopping-time",
+		"final-thickness", "energy-loss", "energy-rise"};
+
+	for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+		const char *nearest;
+		const struct metric *metric = metric_find(names[i], &nearest);
+		const struct sample sample = {
+			.file = file, .config = config, .at = config->time.end, .metric = metric};
+		struct error refusal = {0};
+		double value;
+		bool has;
+
+		TRY(run_file_has(file, metric->dataset, &has, err));
+		if (!has)
+			continue;
+		if (metric->value(&sample, &value, &refusal) == 0)
+			text_addf(
+				out, "  %-23s%.4g%s%s\n", names[i], value, *metric->unit ? " " : "", metric->unit);
+		else if (refusal.code == EX_DATAERR)
+			text_addf(out, "  %-23s%s\n", names[i], refusal.text);
+		else
+			*err = refusal;
+	}
+	return err->code ? -1 : 0;
+}
+
+/* Of a config that another version wrote and this one cannot read nothing is told. */
 static int add_config(struct run_file *file, struct text *out, struct error *err)
 {
 	struct text stored = {0};
@@ -63,8 +95,10 @@ static int add_config(struct run_file *file, struct text *out, struct error *err
 	int result = run_file_text(file, "config", &stored, err);
 
 	if (result == 0 && config_parse(&config, text_string(&stored), stored.length,
-						   run_file_path(file), NULL, 0, &other_version) == 0)
+						   run_file_path(file), NULL, 0, &other_version) == 0) {
+		result = add_outcome(file, &config, out, err);
 		config_print_leading(&config, out);
+	}
 	text_clean(&stored);
 	if (other_version.code == EX_SOFTWARE) {
 		*err = other_version;

@@ -212,19 +212,56 @@ static int check_fluid(
 	return field_blame(reader, "fluid.density", "grains.density", -1, err);
 }
 
-static int check_output(
+/* The times that would do are told as they are to be set: the commonest way here is an earlier end. */
+static int check_times(
 	const struct config *config, const struct field_reader *reader, struct error *err)
 {
 	const struct real_list *times = &config->output.profiles_at;
 	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
+	struct text kept = {0};
+	int good = 0;
 
-	for (int i = 0; i < times->count; i++)
-		if (times->values[i] > config->time.end) {
-			(void)error_set(err, EX_DATAERR, "output.profiles_at: %s s is after time.end (%s s)",
-				text_real(times->values[i], first), text_real(config->time.end, second));
-			return field_blame(reader, "output.profiles_at", "time.end", i, err);
-		}
+	while (good < times->count && times->values[good] <= config->time.end) {
+		text_addf(&kept, "%s%s", good ? "," : "", text_real(times->values[good], first));
+		good++;
+	}
+	if (good < times->count)
+		(void)error_set(err, EX_DATAERR,
+			"output.profiles_at: %s s is after time.end (%s s); an earlier end wants fewer times: "
+			"output.profiles_at=[%s]",
+			text_real(times->values[good], first), text_real(config->time.end, second),
+			text_string(&kept));
+	text_clean(&kept);
+	return good < times->count ? field_blame(reader, "output.profiles_at", "time.end", good, err)
+							   : 0;
+}
+
+static int check_positions(const struct config *config, const char *key,
+	const struct real_list *positions, const struct field_reader *reader, struct error *err)
+{
+	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
+
+	for (int i = 0; i < positions->count; i++) {
+		double x = positions->values[i];
+		bool left = x < config->domain.x_min;
+
+		if (!left && x <= config->domain.x_max)
+			continue;
+		(void)error_set(err, EX_DATAERR, "%s: %s m is outside the domain, %s m is its %s", key,
+			text_real(x, first),
+			text_real(left ? config->domain.x_min : config->domain.x_max, second),
+			left ? "x_min" : "x_max");
+		return field_blame(reader, key, left ? "domain.x_min" : "domain.x_max", i, err);
+	}
 	return 0;
+}
+
+static int check_output(
+	const struct config *config, const struct field_reader *reader, struct error *err)
+{
+	TRY(check_times(config, reader, err));
+	TRY(check_positions(config, "output.gauges", &config->output.gauges, reader, err));
+	return check_positions(config, "output.velocity_at", &config->output.velocity_at, reader, err);
 }
 
 static int read_tree(struct config *config, const struct field_source *file,
@@ -249,7 +286,7 @@ static int read_tree(struct config *config, const struct field_source *file,
 		check_domain(config, &reader, err) == 0 && check_ends(config, &reader, err) == 0 &&
 		check_rheology(config, &reader, err) == 0 && check_output(config, &reader, err) == 0 &&
 		check_operator(config, &reader, err) == 0 && check_fractions(config, &reader, err) == 0 &&
-		check_fluid(config, &reader, err) == 0)
+		check_fluid(config, &reader, err) == 0 && config_check_geometry(config, &reader, err) == 0)
 		status = 0;
 done:
 	for (int i = 0; i < count; i++)
@@ -363,19 +400,6 @@ bool config_is_whole(const char *key)
 	return field && field->kind == FIELD_INTEGER;
 }
 
-bool config_is_alike(const struct config *a, const struct config *b)
-{
-	struct config other = *a;
-	struct text keys = {0};
-	bool alike;
-
-	other.time.end = b->time.end;
-	field_differences(&config_table, &other, b, &keys);
-	alike = !keys.length && !keys.failed;
-	text_clean(&keys);
-	return alike;
-}
-
 void config_differences(const struct config *a, const struct config *b, struct text *out)
 {
 	field_differences(&config_table, a, b, out);
@@ -407,5 +431,5 @@ int config_value(const struct config *config, const char *key, struct text *out,
 	if (!field_applies(&config_table, field, config))
 		return field_inapplicable(&config_table, field, config, err);
 	field_print_value(field, config, out);
-	return 0;
+	return out->failed ? error_memory(err, out->capacity) : 0;
 }

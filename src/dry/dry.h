@@ -31,7 +31,7 @@
 
 /* Constants of a run. */
 struct dry_parameters {
-	double gc;              /* g cos(theta), m/s2 */
+	double gc;              /* g cos(theta), or g in Cartesian coordinates, m/s2 */
 	double tan_slope;       /* tan(theta), 1 */
 	double rho;             /* phi_s rho_s, kg/m3 */
 	double mu_s, mu_2, i_0; /* a constant law has mu_2 = mu_s */
@@ -50,7 +50,9 @@ struct dry_parameters {
 	double cfl;
 	double front_threshold, static_speed; /* m, m/s */
 	bool fastest;                         /* wave speed: max over the layers, not the mean */
-	bool static_balance;                  /* dC balances only where it can */
+	int reconstruction;                   /* enum reconstruction_kind: where dC balances */
+	bool coulomb;                         /* friction slows down or stops one layer (P2) */
+	bool plain_thickness;                 /* friction is carried by h, not by P1 (25) */
 	bool non_hydrostatic;
 };
 
@@ -98,6 +100,8 @@ struct model_state {
 	double *mass; /* [2], initial mass and what has left through the ends, kg/m */
 
 	double *b; /* bed above the reference plane, [stride], m */
+	double *
+		bed; /* what d_x b of the pressure force is of: b, or with the plane in Cartesian coordinates */
 
 	/* Velocities u_a, w_a: at t^n through transport and friction, then of the new state,
 	 * [layers][stride], m/s. */
@@ -159,6 +163,12 @@ KERNEL_PART double dry_mu(const struct dry_parameters *par, double shear, double
 		   (par->mu_2 - par->mu_s) * inertia / (par->i_0 * __builtin_sqrt(p) + inertia + 1e-300);
 }
 
+/* Beside a cell of thickness `h` on a bed `b`: does the bed of the other cell stand out of the grains, dry? */
+KERNEL_PART bool dry_emerges(double h, double b, double other_h, double other_b)
+{
+	return (other_h <= DRY_NO_MOMENTUM) & (h + b < other_b);
+}
+
 /* Velocities from discharges, zero where the cell is dry, with ghosts; and what their layers sum up to. */
 void dry_velocities(struct model_state *s);
 
@@ -170,6 +180,10 @@ void dry_transport(struct model_state *s, double dt);
 
 /* Step 2 (P1 23-25): friction between the layers and at the bottom, implicit with frozen viscosity. */
 void dry_friction(struct model_state *s, double dt);
+
+/* What friction takes from the flow now, with the coefficients of step 2 (P1 Theorem 1): at the bottom,
+ * or between the layers, [cells], W/m2. */
+void dry_dissipation(const struct model_state *s, bool between_layers, double *values);
 
 /* Step 3 (P1 26-33): make the velocity free of divergence. EX_FAILED when the solver does not
  * converge. */
@@ -183,7 +197,7 @@ void dry_add_pressure_force(struct model_state *s, const double *p, double dt);
 void dry_exact(const struct model_state *s, double h, double *u, double *strain, double *mu);
 
 /* Series and profiles (observe.c), as struct model describes them. */
-enum { DRY_SERIES_COUNT = 16, DRY_PROFILE_COUNT = 11 };
+enum { DRY_SERIES_COUNT = 18, DRY_PROFILE_COUNT = 13 };
 extern const struct series dry_series[DRY_SERIES_COUNT];
 extern const struct profile dry_profiles[DRY_PROFILE_COUNT];
 void dry_observe(const struct model_state *s, double *values);

@@ -26,7 +26,7 @@ KERNEL_PART void friction_thickness(
 	const double *restrict h = s->h + first, *restrict b = s->b + first;
 	const double *restrict bottom = s->u + first;
 	const double *restrict top = s->u + (size_t)(s->layers - 1) * s->grid.stride + first;
-	double limit = 2 * s->grid.dx * s->par.mu_s * (1 + 1e-9);
+	double limit = s->par.plain_thickness ? -1 : 2 * s->grid.dx * s->par.mu_s * (1 + 1e-9);
 	double rest = 100 * s->par.delta_velocity, plane[CHUNK_CELLS] = {0};
 
 	for (int k = 0; k < c->cells; k++)
@@ -36,12 +36,16 @@ KERNEL_PART void friction_thickness(
 	if (chunk.last == s->grid.cells && s->grid.right_wall)
 		plane[c->cells - 1] = -s->par.tan_slope * s->grid.dx;
 	for (int k = 0; k < c->cells; k++) {
-		double jump = h[k + 1] + b[k + 1] - h[k - 1] - b[k - 1] + plane[k];
+		bool shore_l = dry_emerges(h[k], b[k], h[k - 1], b[k - 1]);
+		bool shore_r = dry_emerges(h[k], b[k], h[k + 1], b[k + 1]);
+		double eta = h[k] + b[k], eta_l = h[k - 1] + b[k - 1], eta_r = h[k + 1] + b[k + 1];
+		double jump =
+			(shore_r ? eta : eta_r) - (shore_l ? eta : eta_l) + plane[k]; /* level there */
 		double smooth = 0.5 * h[k] + 0.25 * (h[k - 1] + h[k + 1]);
 		double speed = fabs(bottom[k]) > fabs(top[k]) ? fabs(bottom[k]) : fabs(top[k]);
 		double carries = speed < rest ? 2 * smooth : smooth;
 
-		c->hs[k] = fabs(jump) <= limit ? carries : h[k];
+		c->hs[k] = fabs(jump) <= limit ? carries : h[k]; /* never, where the limit is below 0 */
 		c->h[k] = h[k] > DRY_ONE_LAYER ? h[k] : DRY_ONE_LAYER;
 	}
 }
@@ -123,6 +127,14 @@ KERNEL_PART void slide_as_one(
 			U[k] = h[k] < DRY_ONE_LAYER ? sum[k] : U[k];
 }
 
+KERNEL_PART void bound(const struct model_state *s, const double *restrict h, struct columns *c)
+{
+	double gc = s->par.gc, largest = s->par.largest_viscosity;
+
+	for (int k = 0; k < c->cells; k++)
+		c->most[k] = largest * __builtin_sqrt(gc * h[k] * h[k] * h[k]);
+}
+
 /* The interface below layer 1, where the elimination begins. */
 KERNEL_PART void begin(const struct model_state *s, struct friction_choice choice,
 	struct chunk chunk, struct columns *c, double dt)
@@ -133,8 +145,8 @@ KERNEL_PART void begin(const struct model_state *s, struct friction_choice choic
 	double n = dry_layers_of(s, 0), apart = dry_bottom_layers(s), share = par.gc;
 	double per_dx = 1 / s->grid.dx;
 
-	for (int k = 0; choice.bounded && k < c->cells; k++)
-		c->most[k] = par.largest_viscosity * __builtin_sqrt(par.gc * h[k] * h[k] * h[k]);
+	if (choice.bounded)
+		bound(s, h, c);
 	for (int k = 0; k < c->cells; k++) {
 		double p = positive(share * c->hs[k] + 0.5 * (q[k] + q[k + 1])), bottom;
 
@@ -217,6 +229,25 @@ KERNEL_PART void substitute(int cells, const double *restrict h, const double *r
 	}
 }
 
+/* P2 step 2, for one layer: it loses what friction takes in the step, or stops, also upwards. */
+KERNEL_PART void slow_or_stop(
+	struct model_state *s, struct chunk chunk, const struct columns *c, double dt)
+{
+	const struct dry_parameters par = s->par;
+	size_t first = (size_t)chunk.first;
+	const double *restrict u = s->u + first, *restrict q = s->q + first - 1;
+	double *restrict U = s->U + first, *restrict W = s->W + first;
+
+	for (int k = 0; k < c->cells; k++) {
+		double p = positive(par.gc * c->hs[k] + 0.5 * (q[k] + q[k + 1]));
+		double takes = dt * dry_mu(&par, fabs(u[k]) / c->h[k], p) * p;
+		double left = fabs(U[k]) - takes;
+
+		U[k] = left > 0 ? __builtin_copysign(left, U[k]) : 0;
+		W[k] = left > 0 ? W[k] : 0;
+	}
+}
+
 /* P1 (24) by the Thomas algorithm: h u_a - dt/l_a [k_up (u_{a+1} - u_a) - k_down (u_a - u_{a-1})] = U_a.
  * U turns into u on the way up and back into h u on the way down. */
 KERNEL_PART void solve(struct model_state *s, struct friction_choice choice, struct chunk chunk,
@@ -268,6 +299,10 @@ KERNEL static void friction(struct model_state *s, struct chunk chunk, double dt
 	if (thin)
 		slide_as_one(s, chunk, h, c.cells, dt);
 	friction_thickness(s, chunk, &c);
+	if (s->par.coulomb) {
+		slow_or_stop(s, chunk, &c, dt);
+		return;
+	}
 	/* a copy for each: a choice within a loop would keep it from being vectorised */
 	switch (choice.no_slip | choice.second_order << 1 | choice.bounded << 2 | choice.walls << 3) {
 		SOLVE(0);
@@ -292,4 +327,46 @@ KERNEL static void friction(struct model_state *s, struct chunk chunk, double dt
 void dry_friction(struct model_state *s, double dt)
 {
 	chunk_each(s, friction, dt);
+}
+
+/* One interface of P1 Theorem 1: that below layer `a`, W/m2. */
+static double lost_below(
+	const struct model_state *s, const struct columns *c, int k, size_t i, int a)
+{
+	const struct dry_parameters *par = &s->par;
+	const double *u = s->u + (size_t)a * s->grid.stride + i, *under = u - (a ? s->grid.stride : 0);
+	const double *q = s->q + (size_t)a * (size_t)s->grid.faces + i;
+	double n = s->layers, jump = a ? u[0] - under[0] : u[0];
+	double p = positive(par->gc * (n - s->level[a]) / n * c->hs[k] + 0.5 * (q[-1] + q[0]));
+	double apart = a ? layer_of(s, a - 1).apart : dry_bottom_layers(s);
+	double stretch = (difference(u, 0) + difference(under, 0)) * 0.5 / s->grid.dx;
+	double coefficient;
+
+	if (a || par->friction.no_slip)
+		coefficient = inner_coefficient(
+			par, par->friction, apart, c->h[k], jump, a ? stretch : 0, p, c->most[k]);
+	else
+		coefficient = bottom_coefficient(par, par->friction, apart, c->h[k], jump, stretch, p);
+	return s->par.rho * jump * jump * coefficient;
+}
+
+void dry_dissipation(const struct model_state *s, bool between_layers, double *values)
+{
+	int first = between_layers ? 1 : 0, last = between_layers ? s->layers - 1 : 0;
+
+	for (int begins = 1; begins <= s->grid.cells; begins += CHUNK_CELLS) {
+		int ends = begins + CHUNK_CELLS - 1;
+		struct chunk chunk = {begins, ends < s->grid.cells ? ends : s->grid.cells};
+		struct columns c = {.cells = chunk.last - chunk.first + 1};
+
+		friction_thickness(s, chunk, &c);
+		bound(s, s->h + begins, &c);
+		for (int k = 0; k < c.cells; k++) {
+			size_t i = (size_t)(begins + k);
+
+			values[i - 1] = 0;
+			for (int a = first; a <= last && s->h[i] >= DRY_ONE_LAYER; a++)
+				values[i - 1] += lost_below(s, &c, k, i, a);
+		}
+	}
 }

@@ -12,6 +12,8 @@ enum {
 	MASS,
 	MASS_OUTFLOW,
 	ENERGY,
+	KINETIC_ENERGY,
+	POTENTIAL_ENERGY,
 	PRESSURE_ITERATIONS,
 	COARSE_ITERATIONS,
 	PRESSURE_RESIDUAL,
@@ -52,6 +54,14 @@ const struct series dry_series[DRY_SERIES_COUNT] = {
 	[ENERGY] = {.name = "energy",
 		.units = "J m-1",
 		.long_name = "kinetic and potential energy per unit width (P1 Theorem 1)",
+		.slope_of = -1},
+	[KINETIC_ENERGY] = {.name = "kinetic_energy",
+		.units = "J m-1",
+		.long_name = "kinetic energy per unit width",
+		.slope_of = -1},
+	[POTENTIAL_ENERGY] = {.name = "potential_energy",
+		.units = "J m-1",
+		.long_name = "potential energy per unit width, 0 at the right end of the reference plane",
 		.slope_of = -1},
 	[PRESSURE_ITERATIONS] = {.name = "pressure_iterations",
 		.units = "1",
@@ -114,7 +124,9 @@ enum {
 	FRICTION,
 	STEADY_VELOCITY,
 	STEADY_STRAIN_RATE,
-	STEADY_FRICTION
+	STEADY_FRICTION,
+	BOTTOM_DISSIPATION,
+	LAYER_DISSIPATION,
 };
 
 const struct profile dry_profiles[DRY_PROFILE_COUNT] = {
@@ -137,6 +149,10 @@ const struct profile dry_profiles[DRY_PROFILE_COUNT] = {
 		false},
 	[STEADY_FRICTION] = {"mu_steady", "1", "friction coefficient in that flow", PROFILE_INTERFACE,
 		false},
+	[BOTTOM_DISSIPATION] = {"bottom_dissipation", "W m-2",
+		"power of the friction at the bottom (P1 Theorem 1)", PROFILE_X, false},
+	[LAYER_DISSIPATION] = {"layer_dissipation", "W m-2",
+		"power of the friction between the layers (P1 Theorem 1)", PROFILE_X, false},
 };
 
 /* Rightmost crossing of h - h_i = threshold, linear between the cell centres; NaN: none. */
@@ -156,17 +172,21 @@ static double front(const struct model_state *s)
 }
 
 /* P1 Theorem 1 summed over the domain, times rho: J/m. */
-static double energy(const struct model_state *s)
+static void energies(const struct model_state *s, double *values)
 {
-	double sum = 0, end = s->grid.x_min + s->grid.cells * s->grid.dx;
+	double sum = 0, kinetic = 0, end = s->grid.x_min + s->grid.cells * s->grid.dx;
+	double scale = s->par.rho * s->grid.dx;
 
 	for (int i = 1; i <= s->grid.cells; i++) {
 		double plane = (end - grid_centre(&s->grid, i)) * s->par.tan_slope;
+		double moving = 0.5 * s->squares[i] / s->layers;
 
-		sum += s->h[i] *
-			   (0.5 * s->squares[i] / s->layers + s->par.gc * (plane + s->b[i] + 0.5 * s->h[i]));
+		sum += s->h[i] * (moving + s->par.gc * (plane + s->b[i] + 0.5 * s->h[i]));
+		kinetic += s->h[i] * moving;
 	}
-	return s->par.rho * s->grid.dx * sum;
+	values[ENERGY] = scale * sum;
+	values[KINETIC_ENERGY] = scale * kinetic;
+	values[POTENTIAL_ENERGY] = values[ENERGY] - values[KINETIC_ENERGY];
 }
 
 /* P3 (53) over the layers of a cell, weighted by their thickness. */
@@ -197,7 +217,7 @@ void dry_observe(const struct model_state *s, double *values)
 	values[MAX_THICKNESS] = thickest;
 	values[MASS] = s->par.rho * s->grid.dx * mass;
 	values[MASS_OUTFLOW] = s->mass[1];
-	values[ENERGY] = energy(s);
+	energies(s, values);
 	values[PRESSURE_ITERATIONS] = s->iterations;
 	values[COARSE_ITERATIONS] = s->coarse_iterations;
 	values[PRESSURE_RESIDUAL] = s->residual;
@@ -231,7 +251,7 @@ static void diagnose_w(const struct model_state *s, double *values)
 {
 	int cells = s->grid.cells;
 	double width = 2 * s->grid.dx;
-	const double *h = s->h, *b = s->b;
+	const double *h = s->h, *b = s->bed;
 
 	for (int i = 1; i <= cells; i++) {
 		double below = 0;
@@ -301,7 +321,7 @@ void dry_profile(const struct model_state *s, size_t index, double *values)
 {
 	switch (index) {
 	case BED:
-		copy_cells(s, s->b, 1, values);
+		copy_cells(s, s->bed, 1, values);
 		break;
 	case THICKNESS:
 		copy_cells(s, s->h, 1, values);
@@ -334,7 +354,10 @@ void dry_profile(const struct model_state *s, size_t index, double *values)
 	case STEADY_FRICTION:
 		memcpy(values, s->steady_mu, ((size_t)s->layers + 1) * sizeof *values);
 		break;
-	default:
+	case PRESSURE:
 		each_interface(s, s->par.rho, total_pressure, values);
+		break;
+	default:
+		dry_dissipation(s, index == LAYER_DISSIPATION, values);
 	}
 }

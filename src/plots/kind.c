@@ -159,6 +159,15 @@ static void multiply(double *values, size_t count, double factor)
 		values[i] *= factor;
 }
 
+static void leave_bed_out(const struct kind_request *request, const struct kind_run *run,
+	const char *name, double *values, size_t count)
+{
+	if (!request->wanted->above_bed || !run->config || strcmp(name, "h") != 0)
+		return;
+	for (size_t i = 0; i < count; i++)
+		values[i] -= run->config->erodible_bed_thickness;
+}
+
 static int lacks(const struct kind_request *request, const struct kind_run *run, struct error *err)
 {
 	if (err->code != EX_DATAERR && err->code != EX_NOINPUT)
@@ -219,6 +228,7 @@ static int add_slice(const struct kind_request *request, const struct kind_run *
 	if (!strcmp(place->along, "time"))
 		for (size_t i = 0; i < slice->count && slice->axis[i] < meaning_settles(name); i++)
 			slice->values[i] = NAN;
+	leave_bed_out(request, run, name, slice->values, slice->count);
 	TRY(dataset_axis(request, run, kind->upright ? 0 : 1, name, &factor, err));
 	multiply(slice->values, slice->count, factor);
 	if (kind->upright) {
@@ -272,12 +282,14 @@ static int add_places(const struct kind_request *request, const struct kind_run 
 {
 	const struct kind_cuts *cuts = request->cuts;
 	const struct experiment_panel *wanted = request->wanted;
-	const char *layers = slice_layer_axis(run->file, name);
-	bool has_x = strcmp(at->place.along, "x") != 0 && slice_has_axis(run->file, name, "x");
+	const char *layers = slice_layer_axis(run->file, name, err);
+	bool has_x = strcmp(at->place.along, "x") != 0 && slice_has_axis(run->file, name, "x", err);
 	bool has_layers = layers && strcmp(at->place.along, layers) != 0;
 	size_t positions = has_x && cuts->position_count ? cuts->position_count : 1;
 	size_t count = has_layers && cuts->layer_count ? cuts->layer_count : 1;
 
+	if (err->code)
+		return -1;
 	for (size_t i = 0; i < positions; i++)
 		for (size_t k = 0; k < count; k++) {
 			struct cut cut = *at;
@@ -296,9 +308,10 @@ static int add_places(const struct kind_request *request, const struct kind_run 
 }
 
 /* The axis of the dataset that stays: across the layers it is known by two names. */
-static const char *along_of(const struct kind *kind, const struct kind_run *run, const char *name)
+static const char *along_of(
+	const struct kind *kind, const struct kind_run *run, const char *name, struct error *err)
 {
-	const char *layers = slice_layer_axis(run->file, name);
+	const char *layers = slice_layer_axis(run->file, name, err);
 
 	return !strcmp(kind->along, "layer") && layers ? layers : kind->along;
 }
@@ -307,13 +320,15 @@ static int add_lines(const struct kind_request *request, const struct kind_run *
 	const char *name, const struct kind *kind, struct error *err)
 {
 	const struct kind_cuts *cuts = request->cuts;
-	bool timed =
-		strcmp(kind->along, "profile_time") != 0 && slice_has_axis(run->file, name, "profile_time");
-	struct cut cut = {.place = {along_of(kind, run, name), NAN, NAN, SLICE_FIRST}};
+	bool timed = strcmp(kind->along, "profile_time") != 0 &&
+				 slice_has_axis(run->file, name, "profile_time", err);
+	struct cut cut = {.place = {along_of(kind, run, name, err), NAN, NAN, SLICE_FIRST}};
 	double *times = NULL, stride;
 	size_t count = 0;
 	int result = 0;
 
+	if (err->code)
+		return -1;
 	if (!timed || (!cuts->all_times && !cuts->time_count))
 		return add_places(request, run, kind, name, &cut, err);
 	if (cuts->all_times && slice_axis(run->file, "profile_time", &times, &count, err))
@@ -365,6 +380,7 @@ static int add_map(const struct kind_request *request, const struct kind_run *ru
 			error_memory(err, map.rows * map.columns * sizeof *map.values);
 			goto done;
 		}
+		leave_bed_out(request, run, name, slice.values, slice.count);
 		memcpy(map.values + row * map.columns, slice.values, map.columns * sizeof *map.values);
 	}
 	map.x = slice.axis;

@@ -91,7 +91,7 @@ int recorder_create(const struct model *model, const struct config *config, cons
 			goto failed;
 	}
 	r->after = malloc((most + 1) * sizeof *r->after);
-	if (r->after)
+	if (r->after && probes_init(&r->probes, model, config, &r->axes, err) == 0)
 		return 0;
 failed:
 	recorder_free(r);
@@ -118,6 +118,7 @@ void recorder_free(struct recorder *r)
 	}
 	place_clean(&r->now);
 	place_clean(&r->mark);
+	probes_clean(&r->probes);
 	free(r->columns);
 	free(r->observed);
 	free(r->fields);
@@ -136,6 +137,7 @@ int recorder_reserve_rows(struct recorder *r, size_t rows, struct error *err)
 		capacity *= 2;
 	for (size_t i = 0; i < RECORDER_OWN + r->model->series_count; i++)
 		TRY(grow(&r->columns[i], capacity, err));
+	TRY(probes_reserve(&r->probes, capacity, err));
 	r->capacity = capacity;
 	return 0;
 }
@@ -239,6 +241,7 @@ static int add_series(struct recorder *r, const struct model_state *state,
 		r->columns[RECORDER_OWN + i][r->now.rows] = r->now.sums[i];
 		r->now.sums[i] = 0;
 	}
+	probes_observe(&r->probes, model, state, r->now.rows);
 	r->now.rows++;
 	return 0;
 }

@@ -146,6 +146,7 @@ void recorder_write(const struct recorder *r, struct image *image)
 {
 	write_series(r, image);
 	write_axes(r, image);
+	probes_write(&r->probes, r->now.rows, image);
 	for (size_t p = 0; p < r->model->profile_count; p++)
 		write_profile(r, p, image);
 	write_place(r, &r->now, RUN_FILE_CHECKPOINT, image);
@@ -155,7 +156,8 @@ void recorder_write(const struct recorder *r, struct image *image)
 
 size_t recorder_size(const struct recorder *r)
 {
-	size_t values = r->now.rows * (RECORDER_OWN + r->model->series_count);
+	size_t row = RECORDER_OWN + r->model->series_count + probes_width(&r->probes);
+	size_t values = r->now.rows * row;
 
 	for (size_t p = 0; p < r->model->profile_count; p++)
 		values += r->fields[p].size * (r->now.profile_rows + 1);
@@ -250,6 +252,7 @@ int recorder_read(struct recorder *r, struct run_file *file, bool at_mark, struc
 	TRY(recorder_reserve_rows(r, rows, err));
 	for (size_t i = 0; i < RECORDER_OWN + r->model->series_count; i++)
 		TRY(run_file_fill(file, series_at(r, i)->name, r->columns[i], rows, err));
+	TRY(probes_read(&r->probes, file, rows, err));
 	r->now.rows = rows;
 	TRY(read_profiles(r, file, err));
 	if (at_mark)

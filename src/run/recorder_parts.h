@@ -3,6 +3,7 @@
 #define TALUS_RECORDER_PARTS_H
 
 #include "run/history.h"
+#include "run/probes.h"
 #include "run/recorder.h"
 
 /* Series of every model, before the model's own. */
@@ -35,6 +36,7 @@ struct recorder {
 	size_t capacity;
 	double **columns; /* [RECORDER_OWN + series][capacity] */
 	double *observed; /* [series], of the last step */
+	struct probes probes;
 
 	size_t profile_capacity;
 	double *profile_times;     /* [profile_capacity] */

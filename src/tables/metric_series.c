@@ -51,6 +51,65 @@ int metric_series_drift(const struct sample *sample, double *out, struct error *
 	return 0;
 }
 
+/* The same of what is there and what has left through the ends, in units of 1e-15. */
+int metric_mass_drift(const struct sample *sample, double *out, struct error *err)
+{
+	struct dataset mass = {0}, left = {0};
+	int result = -1;
+
+	if (metric_read(sample->file, sample->metric->dataset, &mass, err) ||
+		metric_read(sample->file, "mass_outflow", &left, err))
+		goto done;
+	*out = 0;
+	for (size_t i = 1; i < metric_count(&mass) && i < metric_count(&left); i++) {
+		double whole = (mass.values[i] + left.values[i]) / (mass.values[0] + left.values[0]);
+
+		*out = fmax(*out, 1e15 * fabs(whole - 1));
+	}
+	result = 0;
+done:
+	free(mass.values);
+	free(left.values);
+	return result;
+}
+
+/* How far the series rises between two records at most, or in all, relative to its first value. */
+static int rises(const struct sample *sample, bool all, double *out, struct error *err)
+{
+	struct dataset data = {0};
+
+	TRY(metric_read(sample->file, sample->metric->dataset, &data, err));
+	*out = 0;
+	for (size_t i = 1; i < metric_count(&data); i++) {
+		double rise = fmax(0, data.values[i] - data.values[i - 1]) / fabs(data.values[0]);
+
+		*out = all ? *out + rise : fmax(*out, rise);
+	}
+	free(data.values);
+	return 0;
+}
+
+int metric_series_rise(const struct sample *sample, double *out, struct error *err)
+{
+	return rises(sample, false, out, err);
+}
+
+int metric_series_rises(const struct sample *sample, double *out, struct error *err)
+{
+	return rises(sample, true, out, err);
+}
+
+/* What of its first value is gone at the end, in percent. */
+int metric_series_loss(const struct sample *sample, double *out, struct error *err)
+{
+	struct dataset data = {0};
+
+	TRY(metric_read(sample->file, sample->metric->dataset, &data, err));
+	*out = 100 * (1 - data.values[metric_count(&data) - 1] / data.values[0]);
+	free(data.values);
+	return 0;
+}
+
 /* A series and the times of its values. */
 static int read_both(struct run_file *file, const char *name, struct dataset *times,
 	struct dataset *values, struct error *err)

@@ -158,9 +158,17 @@ static void rules_across_fields_blame_the_later_value(void **state)
 		{"rheology: {law: linear}\n",
 			"a.yaml:4:17: rheology.law: linear is a law of model: immersed"},
 		{"output: {profiles_at: [1 s, 3.5 s]}\n",
-			"a.yaml:4:29: output.profiles_at: 3.5 s is after time.end (3 s)"},
+			"a.yaml:4:29: output.profiles_at: 3.5 s is after time.end (3 s); an earlier end wants "
+			"fewer times: output.profiles_at=[1]"},
 		{"output: {profiles_at: [1 s, 2.5 s]}\ntime: {end: 2 s}\n",
-			"a.yaml:5:13: output.profiles_at: 2.5 s is after time.end (2 s)"},
+			"a.yaml:5:13: output.profiles_at: 2.5 s is after time.end (2 s); an earlier end wants "
+			"fewer times: output.profiles_at=[1]"},
+		{"output: {gauges: [-0.21, 1]}\n",
+			"a.yaml:4:19: output.gauges: -0.21 m is outside the domain, -0.2 m is its x_min"},
+		{"output: {velocity_at: [1 m, 1.3 m]}\ndomain: {x_max: 1.2 m}\n",
+			"a.yaml:5:17: output.velocity_at: 1.3 m is outside the domain, 1.2 m is its x_max"},
+		{"output: {gauges: [1 m, 50 cm]}\n",
+			"a.yaml:4:24: output.gauges: 50 cm is not above the value before it"},
 		{"output: {profiles_at: [2 s, 1 s]}\n",
 			"a.yaml:4:29: output.profiles_at: 1 s is not above the value before it"},
 		{"output: {profiles_at: [-1 s]}\n",
@@ -275,7 +283,8 @@ static void a_bad_setting_cites_itself(void **state)
 		{"layers=*a", "layers: anchors and aliases are not supported"},
 		{"layers=# 3", "layers: the document is empty"},
 		{"n_ini_guess=3", "n_ini_guess: 3 does not divide layers (10)"},
-		{"output.profiles_at=[1, 5 s]", "output.profiles_at: 5 s is after time.end (3 s)"},
+		{"output.profiles_at=[1, 5 s]", "output.profiles_at: 5 s is after time.end (3 s); an "
+										"earlier end wants fewer times: output.profiles_at=[1]"},
 		{"output.profiles_at=[1, nan]", "output.profiles_at: nan is not a finite decimal number"},
 		{"output.profiles_at=[1", "output.profiles_at: not valid YAML: while parsing a flow "
 								  "sequence, did not find expected ',' or ']'"},

@@ -69,6 +69,15 @@ static inline size_t series_index(const char *name)
 	return 0;
 }
 
+static inline size_t profile_index(const char *name)
+{
+	for (size_t i = 0; i < dry_model.profile_count; i++)
+		if (!strcmp(dry_model.profiles[i].name, name))
+			return i;
+	fail_msg("no profile %s", name);
+	return 0;
+}
+
 static inline double observed(const struct model_state *s, const char *name)
 {
 	double values[DRY_SERIES_COUNT];

@@ -5,7 +5,7 @@
 
 static void stops_anywhere_change_no_bit(void **state)
 {
-	struct config config = logistic_config("");
+	struct config config = logistic_config("output.gauges=[0.3,1];output.velocity_at=[0.4]");
 
 	(void)state;
 	logistic.number = SIGTERM;

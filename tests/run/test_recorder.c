@@ -156,6 +156,47 @@ static void profiles_are_linear_between_two_steps(void **state)
 	free(profiles.values);
 }
 
+/* Gauges and stations are rows of the series, between the cells they lie between. */
+static void fields_at_positions_follow_the_series(void **state)
+{
+	static const char *const names[] = {"/h_gauge", "/h_station", "/u_station"};
+	struct config config = logistic_config(
+		"output.gauges=[0,0.25,1];output.velocity_at=[0.5];output.series_every=0.05");
+	struct dataset data[3], time, h, u;
+	size_t last;
+
+	(void)state;
+	must_execute(&config, "a");
+	time = read_dataset("a", "/time");
+	h = read_dataset("a", "/h"); /* the last profile is of the last time */
+	u = read_dataset("a", "/u");
+	last = time.extent[0] - 1;
+	for (int i = 0; i < 3; i++) {
+		data[i] = read_dataset("a", names[i]);
+		assert_int_equal(data[i].rank, i == 2 ? 3 : 2);
+		assert_int_equal(data[i].extent[0], last + 1);
+		assert_int_equal(data[i].extent[1], i ? 1 : 3);
+	}
+	assert_int_equal(data[2].extent[2], 3);
+	for (int i = 0; i < 3; i++) { /* cells of this model are 1 m apart */
+		const double *row = h.values + 2 * 16, at[] = {0, 0.25, 1};
+
+		assert_near(
+			data[0].values[last * 3 + (size_t)i], row[0] + at[i] * (row[1] - row[0]), 1e-15);
+	}
+	assert_near(data[1].values[last], 0.5 * (h.values[32] + h.values[33]), 1e-15);
+	for (size_t a = 0; a < 3; a++) {
+		const double *row = u.values + (2 * 3 + a) * 16;
+
+		assert_near(data[2].values[last * 3 + a], 0.5 * (row[0] + row[1]), 1e-15);
+	}
+	for (int i = 0; i < 3; i++)
+		free(data[i].values);
+	free(time.values);
+	free(h.values);
+	free(u.values);
+}
+
 static void only_the_end_shortens_steps_and_none_is_tiny(void **state)
 {
 	(void)state;
@@ -193,6 +234,7 @@ int main(void)
 		TEST(sums_lose_no_step_between_rows),
 		TEST(profiles_come_at_their_times_and_once_at_the_end),
 		TEST(profiles_are_linear_between_two_steps),
+		TEST(fields_at_positions_follow_the_series),
 		TEST(only_the_end_shortens_steps_and_none_is_tiny),
 	};
 
