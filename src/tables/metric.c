@@ -488,6 +488,15 @@ static const struct metric metrics[] = {
 		"greatest layer velocity at a profile time"},
 	{"final-max-speed", "v max", "m/s", -1, PARTNER_NONE, false, NULL, metric_series_last,
 		"max_speed", "greatest layer velocity at the end"},
+	{"steady-max-speed", "exact v max", "m/s", -1, PARTNER_NONE, false, NULL, metric_series_last,
+		"steady_max_speed", "the same of the exact steady flow"},
+	{"bagnold-error", "u L2", "", -1, PARTNER_NONE, false, NULL, metric_series_last,
+		"bagnold_error",
+		"error of the velocity profile of a dry uniform flow against the exact steady one at the "
+		"end, "
+		"P3 (53)"},
+	{"bagnold-error-order", "order", "", 2, PARTNER_PREVIOUS, false, NULL, metric_series_last,
+		"bagnold_error", "its order, from the row before"},
 	{"final-mean-speed", "v mean", "m/s", -1, PARTNER_NONE, false, NULL, metric_series_last,
 		"mean_speed", "mean velocity at the end"},
 	{"final-fraction", "phi mean", "", 4, PARTNER_NONE, false, NULL, metric_series_last, "fraction",
