@@ -16,7 +16,8 @@ struct plots_output {
 	unsigned formats;    /* enum plots_format, added up */
 	struct text written; /* the path of every file, one a line */
 	struct text
-		missing; /* a line per thing that could not be drawn; empty: the figures are whole */
+		missing;       /* a line per thing that could not be drawn; empty: the figures are whole */
+	struct text notes; /* a line per figure that was left out because nothing would be seen in it */
 };
 
 /* Draw a plot of an experiment into folder/NAME.svg and so on, each file replaced whole. EX_DATAERR

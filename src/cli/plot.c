@@ -143,6 +143,8 @@ static int tell(struct plots_output *output)
 {
 	int code = command_print(&output->written);
 
+	if (output->notes.length)
+		(void)fprintf(stderr, "%s", text_string(&output->notes));
 	if (output->missing.length)
 		(void)fprintf(stderr, "%s", text_string(&output->missing));
 	return !code && output->missing.length ? EX_FAILED : code;

@@ -28,6 +28,7 @@ void plots_output_clean(struct plots_output *output)
 {
 	text_clean(&output->written);
 	text_clean(&output->missing);
+	text_clean(&output->notes);
 }
 
 /* Names of one file of a figure: what gnuplot writes, and what it becomes. */
