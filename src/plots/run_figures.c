@@ -47,6 +47,7 @@ struct run_source {
 struct run_sources {
 	struct run_source *items; /* [count] */
 	size_t count;
+	bool dimensionless;
 };
 
 /* The last two parts of a path say which run it is: of "results/study/layers-8" the last one. */
@@ -149,7 +150,8 @@ static int add_panels(const struct run_sources *sources, const char *kind, const
 		.title = "",
 		.labels = {"", ""},
 		.at = {&at, like->at != NULL},
-		.split = {apart, ways}};
+		.split = {apart, ways},
+		.dimensionless = sources->dimensionless};
 	size_t kept = 0;
 
 	for (size_t i = 0; i < count; i++) {
@@ -283,7 +285,8 @@ static int tell_others(const struct run_sources *sources, struct text *missing, 
 int plots_draw_runs(
 	const char *const *paths, size_t count, struct plots_output *output, struct error *err)
 {
-	struct run_sources sources = {calloc(count + 1, sizeof *sources.items), count};
+	struct run_sources sources = {
+		calloc(count + 1, sizeof *sources.items), count, output->dimensionless};
 	bool fronts = false;
 	int result = 0;
 

@@ -309,7 +309,7 @@ static void add_axes(struct text *out, const struct geometry *g, const struct fi
 	add_text(out, "set ylabel", &panel->y.label);
 	text_add(out, " offset -0.2,0\n");
 	add_range(out, "x", &panel->x, all_lines(panel));
-	add_tics(out, "x", panel, g->width, 44);
+	add_tics(out, "x", panel, g->width, 50);
 	add_range(out, "y", &panel->y, false);
 	add_tics(out, "y", panel, g->height, 22);
 }

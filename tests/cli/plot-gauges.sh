@@ -13,6 +13,9 @@ talus plot -f svg run
 echo "exit $?: two profiles are no map"
 svg run/figures/gauges.svg
 svg run/figures/velocities.svg
+talus plot -d -f svg -o plain run 2>/dev/null
+svg plain/gauges.svg
+svg plain/energy.svg
 
 talus run -q "$TALUS_ROOT/configs/immersed-low-viscosity.yaml" -o grains --set time.end=1 \
 	--set 'output.profiles_at=[]'
@@ -33,3 +36,4 @@ masked talus plot -f svg study.yaml
 echo "exit $?"
 svg results/study/figures/gauge.svg
 svg results/study/figures/column.svg
+talus plot -d study.yaml
