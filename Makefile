@@ -102,7 +102,14 @@ $(BUILD)/tests/%.so: tests/%.c
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O1 $(WARN) -fPIC -shared -o $@ $< -ldl
-$(BUILD)/tests/faults/test_allocations: | $(BUILD)/tests/faults/fail_alloc.so
+$(BUILD)/tests/faults/fail_alloc.so: tests/faults/fail_alloc.h
+
+# The program with the allocations of our own code going through the test's.
+$(BUILD)/tests/faults/talus-failing: $(BUILD)/src/cli/main_talus.o $(BUILD)/tests/faults/fail_alloc_linked.o $(LIB)
+	@echo "LD $@"
+	$(Q)$(CC) -fopenmp $(OPT) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(PKG_LIBS) $(patsubst %,-Wl$(comma)--wrap=%,\
+		malloc calloc realloc strdup strndup asprintf tsearch scandir)
+$(BUILD)/tests/faults/test_allocations: | $(BUILD)/tests/faults/fail_alloc.so $(BUILD)/tests/faults/talus-failing
 
 # Packages first, then everything that asks about them in a make of its own.
 

@@ -11,7 +11,11 @@
 enum model_kind { MODEL_DRY, MODEL_IMMERSED };
 enum pressure_kind { PRESSURE_HYDROSTATIC, PRESSURE_NON_HYDROSTATIC };
 enum boundary_kind { BOUNDARY_WALL, BOUNDARY_OUTFLOW };
-enum shape_kind { SHAPE_COLUMN, SHAPE_HEAP };
+enum shape_kind { SHAPE_COLUMN, SHAPE_HEAP, SHAPE_TRIANGLE, SHAPE_LEVEL, SHAPE_CAP, SHAPE_FILE };
+enum coordinates_kind { COORDINATES_LOCAL, COORDINATES_CARTESIAN };
+enum given_kind { GIVEN_SAME, GIVEN_LOCAL, GIVEN_CARTESIAN };
+enum topography_kind { TOPOGRAPHY_PLANE, TOPOGRAPHY_BUMP, TOPOGRAPHY_RANDOM, TOPOGRAPHY_FILE };
+enum thickness_kind { THICKNESS_WELL_BALANCED, THICKNESS_PLAIN };
 enum law_kind { LAW_MU_I, LAW_LINEAR };
 enum wave_speed_kind { WAVE_SPEED_FASTEST, WAVE_SPEED_MEAN };
 enum reconstruction_kind { RECONSTRUCTION_STATIC, RECONSTRUCTION_PRINTED };
@@ -39,7 +43,7 @@ struct real_list {
 	int count;
 	const double *values; /* [count] */
 };
-enum { REAL_LIST_MAX = 512 };
+enum { REAL_LIST_MAX = 512, POINTS_MAX = 8192 };
 
 /* Keys that the model does not have hold their defaults. */
 struct config {
@@ -49,6 +53,7 @@ struct config {
 	double erodible_bed_thickness; /* h_i, m */
 	int layers;                    /* N */
 	struct real_list layer_fractions; /* l_a from the bed up, sums to 1; empty: equal */
+	int coordinates; /* enum coordinates_kind: in which the model is integrated over the depth */
 	int n_ini_guess; /* layers of the coarse system behind the first guess; 0: none */
 	int preserves;   /* enum preserved_kind: what the mixture keeps (PGM or PH of P4) */
 	int bottom;      /* enum bottom_kind: lambda of P4 (21) */
@@ -59,13 +64,28 @@ struct config {
 		int left, right; /* enum boundary_kind */
 	} domain;
 	struct {
-		int shape;             /* enum shape_kind */
-		double height;         /* of the column, the top of the heap, or the mixture, m */
-		double front;          /* position of the gate, m */
-		double centre;         /* of the heap, m */
-		double width;          /* of the heap: where its height has fallen to 1/e, m */
-		double solid_fraction; /* phi_0, 1 */
+		int shape;               /* enum topography_kind */
+		int coordinates;         /* enum given_kind: in which bed and grains are given */
+		double plane_height;     /* of the reference plane at x_max, over the datum of heights, m */
+		double bump;             /* kappa of P1 5.4, m */
+		double roughness;        /* largest random height, m */
+		int seed;                /* of the random heights */
+		struct real_list points; /* of a file: x, b, x, b, m */
+	} topography;
+	struct {
+		int shape;               /* enum shape_kind */
+		double height;           /* of the column, the top of the heap, or the mixture, m */
+		double front;            /* position of the gate, m */
+		double centre;           /* of the heap, m */
+		double width;            /* of the heap: where its height has fallen to 1/e, m */
+		double surface_slope;    /* of a level surface, positive downhill in +x, rad */
+		struct real_list points; /* of a file: x, h, x, h, m */
+		double solid_fraction;   /* phi_0, 1 */
 	} initial;
+	struct {
+		double speed; /* of the gate upwards, V_b of P2 (30), m/s; 0: it is gone at once */
+		double width; /* of the grains behind it that it takes along, m */
+	} gate;
 	struct {
 		double diameter;       /* d_s, m */
 		double density;        /* rho_s, kg/m3 */
@@ -102,6 +122,7 @@ struct config {
 	} time;
 	struct {
 		int friction_reconstruction; /* enum reconstruction_kind: where dC of P1 (21) balances */
+		int friction_thickness;      /* enum thickness_kind: what carries the friction, P1 (25) */
 	} scheme;
 	struct {
 		int method;         /* enum method_kind */
@@ -143,6 +164,12 @@ int config_parse(struct config *config, const char *text, size_t length, const c
 
 /* Does this method (enum method_kind) solve the symmetric operator alone? */
 bool config_symmetric_only(int method);
+
+/* Are bed and grains given as heights over a horizontal datum (else above the reference plane)? And in the
+ * coordinates of the run (else they are changed into them)? */
+bool config_bed_is_absolute(const struct config *config);
+bool config_bed_is_given_here(const struct config *config);
+
 /* The same from a text that is parsed already: one base for many configs. `name` must be that of
  * the text. */
 struct node;
@@ -162,9 +189,6 @@ void config_print_leading(const struct config *config, struct text *out);
 /* 16 hexadecimal digits of what can change numbers: every key except `checkpoint`, `threads`. */
 enum { CONFIG_HASH_SIZE = 17 };
 int config_hash(const struct config *config, char hash[CONFIG_HASH_SIZE], struct error *err);
-
-/* Whether two configs differ in nothing but time.end (and what cannot change numbers). */
-bool config_is_alike(const struct config *a, const struct config *b);
 
 /* Name, per line, every key (except `checkpoint` and `threads`) whose value differs:
  * "layers: 10 -> 20". */

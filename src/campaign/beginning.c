@@ -1,6 +1,7 @@
 #include "campaign/beginning.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -99,6 +100,8 @@ static int add_folders(struct list *list, const struct experiment *experiment, s
 	struct dirent **entries = NULL;
 	int count = scandir(experiment->folder, &entries, NULL, alphasort), result = 0;
 
+	if (count < 0 && errno == ENOMEM)
+		return error_memory(err, sizeof *entries);
 	for (int i = 0; i < count; i++) {
 		const char *name = entries[i]->d_name;
 

@@ -145,6 +145,8 @@ int leftover_list_read(const struct experiment *experiments, size_t count,
 
 	*out = (struct leftover_list){0};
 	found = scandir(experiments[0].folder, &entries, NULL, alphasort);
+	if (found < 0 && errno == ENOMEM)
+		return error_memory(err, sizeof *entries);
 	for (int i = 0; i < found; i++) {
 		const char *name = entries[i]->d_name;
 
@@ -171,6 +173,8 @@ static int unlink_files(
 	struct dirent **entries = NULL;
 	int count = scandir(leftover->folder, &entries, NULL, NULL), result = 0;
 
+	if (count < 0 && errno == ENOMEM)
+		return error_memory(err, sizeof *entries);
 	for (int i = 0; i < count; i++) {
 		const char *name = entries[i]->d_name;
 

@@ -1,6 +1,7 @@
 /* The names of runs: what a person reads, and the digits of the hash by which a run is found. */
 #include <ctype.h>
 #include <dirent.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -217,6 +218,8 @@ static int find_folders(struct experiment *experiment, struct error *err)
 	/* a folder that is not there, or cannot be read, has no runs yet */
 	int count = scandir(experiment->folder, &entries, NULL, alphasort), result = 0;
 
+	if (count < 0 && errno == ENOMEM)
+		return error_memory(err, sizeof *entries);
 	for (int i = 0; i < count; i++) {
 		size_t index = run_name_find(experiment, entries[i]->d_name);
 		struct experiment_run *run = &experiment->runs[index];

@@ -1,10 +1,15 @@
-/* Initial shapes of the granular mass: rows of a table, chosen by `initial.shape`. */
+/* What is there at t = 0: the bed, and the grains at rest on it, a shape of `initial.shape`. */
 #ifndef TALUS_INITIAL_H
 #define TALUS_INITIAL_H
 
 #include "case/grid.h"
 
-/* Fill the thickness of cells 1..cells with the mass at rest at t = 0; `h` is a row with ghosts, m. */
-void initial_thickness(const struct config *config, const struct grid *grid, double *h);
+/* Fill two rows with ghosts: the bed above the reference plane, and the thickness, m; in the coordinates of
+ * the run. EX_DATAERR: a bed that these coordinates cannot hold. EX_SOFTWARE. */
+int initial_fill(
+	const struct config *config, const struct grid *grid, double *b, double *h, struct error *err);
+
+/* Upward velocity of the grains at x that an opening gate takes along, P2 (30), m/s. */
+double initial_velocity(const struct config *config, double x);
 
 #endif

@@ -1,5 +1,6 @@
 /* talus campaign why: what state a run is in, how it came there, and what the next command does with it. */
 #include <dirent.h>
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -48,7 +49,7 @@ struct nearest {
 };
 
 static void nearest_consider(struct nearest *nearest, const struct experiment *experiment,
-	const char *name, const struct config *wanted)
+	const char *name, const struct config *wanted, struct text *out)
 {
 	struct text path = {0}, keys = {0};
 	struct error unreadable = {0};
@@ -68,6 +69,8 @@ static void nearest_consider(struct nearest *nearest, const struct experiment *e
 		keys = (struct text){0};
 	}
 done:
+	out->failed |= path.failed || keys.failed || nearest->keys.failed ||
+				   (nearest->count && !nearest->name) || unreadable.code == EX_SOFTWARE;
 	text_clean(&path);
 	text_clean(&keys);
 }
@@ -80,9 +83,10 @@ static void add_nearest(
 	struct dirent **entries = NULL;
 	int count = scandir(experiment->folder, &entries, NULL, alphasort);
 
+	out->failed |= count < 0 && errno == ENOMEM;
 	for (int i = 0; i < count; i++) {
 		if (entries[i]->d_name[0] != '.')
-			nearest_consider(&nearest, experiment, entries[i]->d_name, &run->config);
+			nearest_consider(&nearest, experiment, entries[i]->d_name, &run->config, out);
 		free(entries[i]);
 	}
 	free(entries);
@@ -99,7 +103,7 @@ static void add_nearest(
 static void add_mismatch(const struct experiment_run *run, struct text *out)
 {
 	struct run_file *file = NULL;
-	struct text warning = {0}, stored = {0}, keys = {0};
+	struct text warning = {0}, keys = {0};
 	struct error ignored = {0};
 	struct config config;
 	double version;
@@ -108,9 +112,7 @@ static void add_mismatch(const struct experiment_run *run, struct text *out)
 		goto done;
 	if (warning.length)
 		text_addf(out, "  warning: %s\n", text_string(&warning));
-	if (run_file_text(file, "config", &stored, &ignored) == 0 &&
-		config_parse(
-			&config, text_string(&stored), stored.length, run->folder, NULL, 0, &ignored) == 0)
+	if (run_file_config(file, &config, &ignored) == 0)
 		config_differences(&config, &run->config, &keys);
 	if (keys.length) {
 		text_add(out, "  its run file was made from another config, and is refused:\n");
@@ -123,9 +125,9 @@ static void add_mismatch(const struct experiment_run *run, struct text *out)
 			"refused\n",
 			version, model_find(&run->config)->numerics_version);
 done:
+	out->failed |= warning.failed || keys.failed || ignored.code == EX_SOFTWARE;
 	run_file_close(file);
 	text_clean(&warning);
-	text_clean(&stored);
 	text_clean(&keys);
 }
 
@@ -175,6 +177,7 @@ static void explain(const struct campaign *campaign, const struct task *task, st
 	text_add(out, "  next: ");
 	campaign_describe_plan(campaign, task, out);
 	text_add(out, "\n");
+	out->failed |= history.failed || log.failed;
 	text_clean(&history);
 	text_clean(&log);
 }
@@ -196,6 +199,7 @@ static bool explain_stranger(
 			config_read(&config, text_string(&path), NULL, 0, &unreadable) == 0;
 	for (size_t i = 0; found && i < experiment->run_count; i++) {
 		config_differences(&config, &experiment->runs[i].config, &keys);
+		out->failed |= keys.failed;
 		if (!best.length || count_lines(text_string(&keys)) < count_lines(text_string(&best))) {
 			text_clean(&best);
 			best = keys;
@@ -211,6 +215,7 @@ static bool explain_stranger(
 		add_indented(out, "    ", text_string(&best));
 		text_add(out, "  next: `run` leaves it alone, `prune` removes it\n");
 	}
+	out->failed |= path.failed || unreadable.code == EX_SOFTWARE;
 	text_clean(&path);
 	text_clean(&best);
 	return found;

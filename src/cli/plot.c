@@ -31,7 +31,7 @@ static const char help[] =
 	"  -h, --help           print this\n\n"
 	"exit: 0 the figures are whole, 1 something is missing in them (stderr names it), 65 bad run "
 	"or\n"
-	"experiment, 69 gnuplot is missing, 73 the figures cannot be written\n";
+	"experiment, 69 gnuplot is missing, 73 and 74 the figures cannot be written\n";
 
 struct plot_options {
 	struct command_settings settings, names;

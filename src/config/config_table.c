@@ -16,6 +16,10 @@
 	{                                                                                              \
 #key, FIELD_REALS, flags, AT(key), unit, value, range, NULL, meaning                       \
 	}
+#define POINTS(key, flags, meaning)                                                                \
+	{                                                                                              \
+#key, FIELD_POINTS, flags, AT(key), "m", "[]", NULL, NULL, meaning                         \
+	}
 #define INTEGER(key, flags, value, range, meaning)                                                 \
 	{                                                                                              \
 #key, FIELD_INTEGER, flags, AT(key), NULL, value, range, NULL, meaning                     \
@@ -33,7 +37,16 @@ static const char *const pressures[] = {
 static const char *const boundaries[] = {
 	[BOUNDARY_WALL] = "wall", [BOUNDARY_OUTFLOW] = "outflow", NULL};
 static const char *const shapes[] = {
-	[SHAPE_COLUMN] = "column", [SHAPE_HEAP] = "heap", NULL};
+	[SHAPE_COLUMN] = "column", [SHAPE_HEAP] = "heap", [SHAPE_TRIANGLE] = "triangle",
+	[SHAPE_LEVEL] = "level", [SHAPE_CAP] = "cap", [SHAPE_FILE] = "file", NULL};
+static const char *const coordinates[] = {
+	[COORDINATES_LOCAL] = "local", [COORDINATES_CARTESIAN] = "cartesian", NULL};
+static const char *const givens[] = {[GIVEN_SAME] = "same", [GIVEN_LOCAL] = "local",
+	[GIVEN_CARTESIAN] = "cartesian", NULL};
+static const char *const topographies[] = {[TOPOGRAPHY_PLANE] = "plane",
+	[TOPOGRAPHY_BUMP] = "bump", [TOPOGRAPHY_RANDOM] = "random", [TOPOGRAPHY_FILE] = "file", NULL};
+static const char *const thicknesses[] = {
+	[THICKNESS_WELL_BALANCED] = "well-balanced", [THICKNESS_PLAIN] = "plain", NULL};
 static const char *const laws[] = {[LAW_MU_I] = "mu_i", [LAW_LINEAR] = "linear", NULL};
 static const char *const wave_speeds[] = {
 	[WAVE_SPEED_FASTEST] = "fastest", [WAVE_SPEED_MEAN] = "mean", NULL};
@@ -76,6 +89,9 @@ static const struct field fields[] = {
 		"angle of the reference plane, positive downhill in +x"),
 	REAL(erodible_bed_thickness, FIELD_REQUIRED | DRY | LEADING, "m", "1.82 mm", "[0, inf)",
 		"grains at rest under and before the initial shape (h_i); 0: a rigid bed"),
+	CHOICE("coordinates", coordinates, DRY, "local", coordinates,
+		"local: along and normal to the reference plane; cartesian: horizontal and vertical, with the "
+		"plane as part of the bed (P2 4.1)"),
 	INTEGER(layers, FIELD_REQUIRED | LEADING, "10", "[1, 512]",
 		"layers from the bed to the surface (N)"),
 	REALS(layer_fractions, IMMERSED | FIELD_UNSORTED, "1", "[]", "(0, 1]",
@@ -97,15 +113,38 @@ static const struct field fields[] = {
 	CHOICE("domain.left", domain.left, DRY, "wall", boundaries, "what the left end is"),
 	CHOICE("domain.right", domain.right, DRY, "outflow", boundaries, "what the right end is"),
 
+	GROUP(topography, DRY, "the bed above the reference plane"),
+	CHOICE("topography.shape", topography.shape, DRY, "plane", topographies,
+		"plane: nothing above it; bump: the valley of P1 5.4; random: the rough bed of P1 5.3; file: points"),
+	CHOICE("topography.coordinates", topography.coordinates, DRY, "same", givens,
+		"in which bed and initial shape are given: above the plane, in those of the run (same) or local "
+		"ones, or as heights over a horizontal datum (cartesian); they are changed into those of the run"),
+	REAL(topography.plane_height, DRY, "m", "0 m", NULL,
+		"of the reference plane at x_max, over the datum of cartesian heights"),
+	REAL(topography.bump, DRY, "m", "0.3 m", "[0, inf)", "height of the bump at x = 1 m (kappa of P1 5.4)"),
+	REAL(topography.roughness, DRY, "m", "0.15 m", "[0, inf)", "largest height that random adds to a cell"),
+	INTEGER(topography.seed, DRY, "1", "[0, inf)", "of the random heights"),
+	POINTS(topography.points, DRY, "x and bed of shape file, linear between them; a file is beside the config"),
+
 	GROUP(initial, 0, "the grains at rest at time 0"),
 	CHOICE("initial.shape", initial.shape, DRY, "column", shapes,
-		"column: one height from the left end to the front; heap: height exp(-((x - centre)/width)^2)"),
-	REAL(initial.height, 0, "m", "0.14 m", "(0, inf)", "height of the column, or of the heap's top, above the bed layer, or of the mixture"),
+		"column: one height from the left end to the front; heap: height exp(-((x - centre)/width)^2); "
+		"triangle: a horizontal surface behind a vertical front (P2 4.1); level: a surface through height at "
+		"centre; cap: that of P1 5.4; file: points"),
+	REAL(initial.height, 0, "m", "0.14 m", "(0, inf)", "height of the column, or of the heap's top, above the bed layer, of a level surface or cap, or of the mixture"),
 	REAL(initial.front, DRY, "m", "0 m", NULL, "position of the gate, between x_min and x_max"),
-	REAL(initial.centre, DRY, "m", "0 m", NULL, "of the heap"),
+	REAL(initial.centre, DRY, "m", "0 m", NULL, "of the heap or cap; where a level surface has its height"),
 	REAL(initial.width, DRY, "m", "0.5 m", "(0, inf)", "of the heap: where its height has fallen to 1/e"),
+	REAL(initial.surface_slope, DRY, "rad", "0 deg", "(-90 deg, 90 deg)",
+		"of a level surface against the x axis, positive downhill in +x"),
+	POINTS(initial.points, DRY, "x and thickness of shape file, linear between them and 0 beyond"),
 	REAL(initial.solid_fraction, IMMERSED | LEADING | FIELD_REQUIRED, "1", "0.592", "(0, 1)",
 		"volume share of the grains: loose or dense (phi_0)"),
+
+	GROUP(gate, DRY, "what the gate does as it opens"),
+	REAL(gate.speed, DRY, "m/s", "0 m/s", NULL,
+		"upward velocity of the grains behind it at time 0 (V_b of P2 30); 0: they are at rest"),
+	REAL(gate.width, DRY, "m", "25 mm", "(0, inf)", "how far behind it they have that velocity"),
 
 	GROUP(grains, 0, "the material"),
 	REAL(grains.diameter, 0, "m", "0.7 mm", "(0, inf)", "grain diameter (d_s)"),
@@ -164,6 +203,8 @@ static const struct field fields[] = {
 	CHOICE("scheme.friction_reconstruction", scheme.friction_reconstruction, DRY, "static",
 		reconstructions,
 		"where friction balances the slope in P1 (21): static: only at rest; printed: also in motion"),
+	CHOICE("scheme.friction_thickness", scheme.friction_thickness, DRY, "well-balanced", thicknesses,
+		"thickness that carries the friction: well-balanced: P1 (25); plain: h (P1 Table 6b)"),
 
 	GROUP(pressure_solver, DRY, "the linear system of the non-hydrostatic pressure"),
 	CHOICE("pressure_solver.method", pressure_solver.method, DRY, "auto", methods,
@@ -217,6 +258,20 @@ static const struct field fields[] = {
 bool config_symmetric_only(int method)
 {
 	return method == METHOD_CONJUGATE_GRADIENTS || method == METHOD_BLOCK_DIRECT;
+}
+
+bool config_bed_is_absolute(const struct config *config)
+{
+	return config->topography.coordinates == GIVEN_CARTESIAN ||
+		   config->topography.shape == TOPOGRAPHY_BUMP;
+}
+
+bool config_bed_is_given_here(const struct config *config)
+{
+	int given = config->topography.coordinates;
+
+	return given == GIVEN_SAME || config->slope <= 0 ||
+		   (given == GIVEN_CARTESIAN) == (config->coordinates == COORDINATES_CARTESIAN);
 }
 
 const struct field_table config_table = {fields, sizeof fields / sizeof *fields, "model"};

@@ -16,6 +16,7 @@ enum field_kind {
 	FIELD_INTEGER, /* int */
 	FIELD_CHOICE,  /* int: index in `choices` */
 	FIELD_REALS,   /* struct real_list, strictly increasing */
+	FIELD_POINTS,  /* struct real_list of x, value, x, value, x strictly increasing */
 };
 
 enum {
@@ -34,7 +35,7 @@ struct field {
 	int flags;
 	size_t offset;     /* of the member within the struct */
 	const char *unit;  /* of reals: SI unit (quantity.h), "1" for a plain number */
-	const char *value; /* default, as in YAML; of a required key an example; of reals "[]" */
+	const char *value; /* default, as in YAML; of a required key an example; of lists "[]" */
 	const char *range; /* "[0 deg, 90 deg)", "(0, inf)", NULL: any; of reals each value */
 	const char *const *choices; /* names, closed by NULL */
 	const char *meaning;        /* one line */

@@ -90,13 +90,16 @@ static int convert_list(const struct field *field, const struct field_place *pla
 	return real_list_keep(list, values, (int)node->count, err);
 }
 
-static int convert_value(
-	const struct field *field, const struct field_place *place, void *member, struct error *err)
+/* `file` is the config file. */
+static int convert_value(const struct field *field, const struct field_place *place,
+	const char *file, void *member, struct error *err)
 {
 	const struct node *node = place->node;
 
 	if (field->kind == FIELD_REALS)
 		return convert_list(field, place, member, err);
+	if (field->kind == FIELD_POINTS)
+		return points_convert(field, place, file, member, err);
 	if (node->kind != NODE_SCALAR)
 		return error_set(err, EX_DATAERR, "expected a single value, not %s", node_kind_name(node));
 	switch (field->kind) {
@@ -115,11 +118,11 @@ static int convert_default(const struct field *field, void *member, struct error
 	struct node node = {.kind = NODE_SCALAR, .text = (char *)field->value};
 	struct field_place place = {.node = &node};
 
-	if (field->kind == FIELD_REALS) {
+	if (field->kind == FIELD_REALS || field->kind == FIELD_POINTS) {
 		assert(!strcmp(field->value, "[]"));
 		node = (struct node){.kind = NODE_SEQUENCE};
 	}
-	return convert_value(field, &place, member, err);
+	return convert_value(field, &place, "", member, err);
 }
 
 /* One row: from its place, or its default. */
@@ -131,7 +134,7 @@ static int convert_field(
 
 	if (!place->source)
 		return convert_default(field, member, err);
-	if (convert_value(field, place, member, err) == 0)
+	if (convert_value(field, place, reader->all.source->name, member, err) == 0)
 		return 0;
 	(void)error_context(err, "%s", field->name);
 	return err->file[0] ? -1 : field_set_place(place->source, place->node, err);

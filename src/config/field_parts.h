@@ -1,4 +1,5 @@
-/* What the files of the field tables share among themselves: field.c, field_convert.c, field_print.c, real_list.c. */
+/* What the files of the field tables share among themselves: field.c, field_convert.c, field_print.c, points.c,
+ * real_list.c. */
 #ifndef TALUS_FIELD_PARTS_H
 #define TALUS_FIELD_PARTS_H
 
@@ -30,5 +31,13 @@ void field_describe_range(const struct field *field, struct text *out);
 
 /* real_list.c: make `list` these numbers, of which a copy is kept once for all lists. EX_SOFTWARE. */
 int real_list_keep(struct real_list *list, const double *values, int count, struct error *err);
+
+/* points.c: the points that a node lists, or that the file it names holds; `beside` is the config file, to
+ * whose folder a name is relative. EX_DATAERR with the place in that file, or none. */
+int points_convert(const struct field *field, const struct field_place *place, const char *beside,
+	struct real_list *list, struct error *err);
+
+/* "[[0, 1], [0.5, 2]]" */
+void points_print(const struct real_list *list, struct text *out);
 
 #endif

@@ -37,6 +37,9 @@ void field_print_value(const struct field *field, const void *target, struct tex
 	case FIELD_REALS:
 		print_list(field, member, out);
 		break;
+	case FIELD_POINTS:
+		points_print(member, out);
+		break;
 	case FIELD_GROUP:
 		break;
 	}
@@ -70,6 +73,8 @@ static void describe(const struct field *field, struct text *out)
 		field_list_choices(field, out);
 	} else if (field->kind == FIELD_INTEGER) {
 		text_add(out, "a whole number");
+	} else if (field->kind == FIELD_POINTS) {
+		text_add(out, "the name of a file of two columns, or a list of points [x, value] in m");
 	} else {
 		if (field->kind == FIELD_REALS)
 			text_add(
@@ -120,9 +125,10 @@ void field_differences(
 			continue;
 		field_print_value(field, a, &left);
 		field_print_value(field, b, &right);
-		if (strcmp(text_string(&left), text_string(&right)) != 0)
+		if (left.failed || right.failed)
+			out->failed = true;
+		else if (strcmp(text_string(&left), text_string(&right)) != 0)
 			text_addf(out, "%s: %s -> %s\n", field->name, text_string(&left), text_string(&right));
-		out->failed = out->failed || left.failed || right.failed;
 		text_clean(&left);
 		text_clean(&right);
 	}

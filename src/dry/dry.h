@@ -31,7 +31,7 @@
 
 /* Constants of a run. */
 struct dry_parameters {
-	double gc;        /* g cos(theta), m/s2 */
+	double gc;        /* g cos(theta), or g in Cartesian coordinates, m/s2 */
 	double tan_slope; /* tan(theta), 1 */
 	double rho;       /* phi_s rho_s, kg/m3 */
 	double mu_s, mu_2, i_0;
@@ -42,6 +42,7 @@ struct dry_parameters {
 	double front_threshold, static_speed; /* m, m/s */
 	bool fastest;                         /* wave speed: max over the layers, not the mean */
 	bool static_balance;                  /* dC balances only where it can */
+	bool plain_thickness;                 /* friction is carried by h, not by P1 (25) */
 	bool non_hydrostatic;
 };
 
@@ -89,6 +90,8 @@ struct model_state {
 	double *mass; /* [2], initial mass and what has left through the ends, kg/m */
 
 	double *b; /* bed above the reference plane, [stride], m */
+	double *
+		bed; /* what d_x b of the pressure force is of: b, or with the plane in Cartesian coordinates */
 
 	/* Velocities u_a, w_a: at t^n through transport and friction, then of the new state,
 	 * [layers][stride], m/s. */

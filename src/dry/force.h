@@ -11,7 +11,7 @@ struct force {
 
 KERNEL_PART void force_begin(const struct model_state *s, struct chunk chunk, struct force *force)
 {
-	const double *restrict h = s->h + chunk.first, *restrict b = s->b + chunk.first;
+	const double *restrict h = s->h + chunk.first, *restrict b = s->bed + chunk.first;
 	int cells = chunk.last - chunk.first + 1;
 	double n = s->layers;
 

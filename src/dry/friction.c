@@ -25,7 +25,7 @@ KERNEL_PART void friction_thickness(
 	const double *restrict h = s->h + first, *restrict b = s->b + first;
 	const double *restrict bottom = s->u + first;
 	const double *restrict top = s->u + (size_t)(s->layers - 1) * s->grid.stride + first;
-	double limit = 2 * s->grid.dx * s->par.mu_s * (1 + 1e-9);
+	double limit = s->par.plain_thickness ? -1 : 2 * s->grid.dx * s->par.mu_s * (1 + 1e-9);
 	double rest = 100 * s->par.delta_velocity, plane[CHUNK_CELLS] = {0};
 
 	for (int k = 0; k < c->cells; k++)
@@ -40,7 +40,7 @@ KERNEL_PART void friction_thickness(
 		double speed = fabs(bottom[k]) > fabs(top[k]) ? fabs(bottom[k]) : fabs(top[k]);
 		double carries = speed < rest ? 2 * smooth : smooth;
 
-		c->hs[k] = fabs(jump) <= limit ? carries : h[k];
+		c->hs[k] = fabs(jump) <= limit ? carries : h[k]; /* never, where the limit is below 0 */
 		c->h[k] = h[k] > DRY_ONE_LAYER ? h[k] : DRY_ONE_LAYER;
 	}
 }

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "case/initial.h"
+#include "case/topography.h"
 #include "dry/chunk.h"
 #include "dry/dry.h"
 
@@ -19,7 +20,8 @@ static struct dry_parameters parameters(const struct config *config)
 {
 	return (struct dry_parameters){
 		/* in long double: cos and tan in double are chosen by processor and differ in bits */
-		.gc = GRAVITY * (double)cosl(config->slope),
+		.gc = config->coordinates == COORDINATES_CARTESIAN ? GRAVITY
+														   : GRAVITY * (double)cosl(config->slope),
 		.tan_slope = (double)tanl(config->slope),
 		.rho = config->grains.solid_fraction * config->grains.density,
 		.mu_s = config->rheology.mu_s,
@@ -34,6 +36,7 @@ static struct dry_parameters parameters(const struct config *config)
 		.static_speed = config->output.static_speed,
 		.fastest = config->time.wave_speed == WAVE_SPEED_FASTEST,
 		.static_balance = config->scheme.friction_reconstruction == RECONSTRUCTION_STATIC,
+		.plain_thickness = config->scheme.friction_thickness == THICKNESS_PLAIN,
 		.non_hydrostatic = config->pressure == PRESSURE_NON_HYDROSTATIC,
 	};
 }
@@ -48,7 +51,7 @@ static double *place(double **next, size_t count)
 	return part;
 }
 
-static size_t layout(struct model_state *s, double *memory)
+static size_t layout(struct model_state *s, bool cartesian, double *memory)
 {
 	size_t stride = s->grid.stride, faces = (size_t)s->grid.faces, n = (size_t)s->layers;
 	size_t coarse = (size_t)s->coarse.layers;
@@ -56,6 +59,7 @@ static size_t layout(struct model_state *s, double *memory)
 
 	s->h = place(&next, stride);
 	s->b = place(&next, stride);
+	s->bed = cartesian ? place(&next, stride) : s->b;
 	s->U = place(&next, n * stride);
 	s->W = place(&next, n * stride);
 	s->u = place(&next, n * stride);
@@ -75,7 +79,7 @@ static size_t layout(struct model_state *s, double *memory)
 	s->layer_interface = place(&next, n + 1);
 	s->coarse.u = coarse ? place(&next, coarse * stride) : NULL;
 	s->coarse.w = coarse ? place(&next, coarse * stride) : NULL;
-	return (7 + 5 * n + 2 * coarse) * stride + (6 + 2 * n) * faces + 2 * n + 3;
+	return (7 + cartesian + 5 * n + 2 * coarse) * stride + (6 + 2 * n) * faces + 2 * n + 3;
 }
 
 static int projection_init(struct model_state *s, const struct config *config,
@@ -106,11 +110,29 @@ static void destroy(struct model_state *s)
 	free(s);
 }
 
-static void fill(struct model_state *s, const struct config *config)
+/* In Cartesian coordinates the plane is a part of the bed (P2 4.1); it goes on beyond the ends. */
+static void add_plane(struct model_state *s, const struct config *config)
+{
+	for (int i = 0; i <= s->grid.cells + 1; i++)
+		s->bed[i] = s->b[i] + topography_plane(config, grid_centre(&s->grid, i));
+}
+
+static void open_gate(struct model_state *s, const struct config *config)
+{
+	for (int a = 0; a < s->layers; a++)
+		for (int i = 1; i <= s->grid.cells; i++)
+			s->W[(size_t)a * s->grid.stride + (size_t)i] =
+				s->h[i] * initial_velocity(config, grid_centre(&s->grid, i));
+	dry_velocities(s);
+}
+
+static int fill(struct model_state *s, const struct config *config, struct error *err)
 {
 	double mass = 0;
 
-	initial_thickness(config, &s->grid, s->h);
+	TRY(initial_fill(config, &s->grid, s->b, s->h, err));
+	if (s->bed != s->b)
+		add_plane(s, config);
 	for (int i = 1; i <= s->grid.cells; i++) {
 		s->x[i - 1] = grid_centre(&s->grid, i);
 		mass += s->h[i];
@@ -120,11 +142,15 @@ static void fill(struct model_state *s, const struct config *config)
 		s->layer_middle[a] = (a + 0.5) / s->layers;
 	for (int a = 0; a <= s->layers; a++)
 		s->layer_interface[a] = (double)a / s->layers;
+	if (config->gate.speed != 0)
+		open_gate(s, config);
+	return 0;
 }
 
 static int create(const struct config *config, struct model_state **out, struct error *err)
 {
 	struct model_state *s = calloc(1, sizeof *s);
+	bool cartesian = config->coordinates == COORDINATES_CARTESIAN;
 	size_t count;
 
 	if (!s)
@@ -143,20 +169,19 @@ static int create(const struct config *config, struct model_state **out, struct 
 		.max_iterations = config->pressure_solver.max_iterations};
 	s->start_previous = config->pressure_solver.start == START_PREVIOUS;
 	s->coarse.layers = s->par.non_hydrostatic ? config->n_ini_guess : 0;
-	count = layout(s, NULL);
+	count = layout(s, cartesian, NULL);
 	s->memory = calloc(count, sizeof *s->memory);
 	s->dry = calloc((size_t)s->grid.faces, sizeof *s->dry);
 	if (!s->memory || !s->dry) {
 		destroy(s);
 		return error_memory(err, count * sizeof *s->memory);
 	}
-	(void)layout(s, s->memory);
+	(void)layout(s, cartesian, s->memory);
 	if ((s->par.non_hydrostatic && projection_init(s, config, &s->full, err)) ||
-		(s->coarse.layers && projection_init(s, config, &s->coarse, err))) {
+		(s->coarse.layers && projection_init(s, config, &s->coarse, err)) || fill(s, config, err)) {
 		destroy(s);
 		return -1;
 	}
-	fill(s, config);
 	*out = s;
 	return 0;
 }

@@ -203,7 +203,7 @@ static void diagnose_w(const struct model_state *s, double *values)
 {
 	int cells = s->grid.cells;
 	double n = s->layers, width = 2 * s->grid.dx;
-	const double *h = s->h, *b = s->b;
+	const double *h = s->h, *b = s->bed;
 
 	for (int i = 1; i <= cells; i++) {
 		double below = 0;
@@ -247,7 +247,7 @@ void dry_profile(const struct model_state *s, size_t index, double *values)
 {
 	switch (index) {
 	case BED:
-		copy_cells(s, s->b, 1, values);
+		copy_cells(s, s->bed, 1, values);
 		break;
 	case THICKNESS:
 		copy_cells(s, s->h, 1, values);

@@ -26,7 +26,7 @@ static void assemble(struct model_state *s, struct projection *problem, double d
 		.layers = problem->layers,
 		.dt = dt,
 		.h = s->h,
-		.b = s->b,
+		.b = s->bed,
 		.u = problem->u ? problem->u : s->u,
 		.w = problem->w ? problem->w : s->w,
 		.dry = s->dry,

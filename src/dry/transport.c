@@ -126,10 +126,17 @@ KERNEL_PART void mass_fluxes(const struct model_state *s, struct window *r)
 	}
 }
 
+/* The bed stands out of the grains: no grains flow over its dry step (P1 Remark 2). */
+KERNEL_PART bool emerges(double h, double b, double dry_h, double dry_b)
+{
+	return (dry_h <= DRY_NO_MOMENTUM) & (h + b < dry_b);
+}
+
 /* No cell gives away more than it holds; what it gives is cut to the share that it can pay. */
 KERNEL_PART void limit_outflow(const struct model_state *s, double dt, struct window *r)
 {
 	const double *restrict h = s->h + r->first, *restrict flux = r->mass_flux;
+	const double *restrict b = s->b + r->first;
 	double pays[ROW];
 
 	pays[0] = pays[r->faces] = 1; /* ghosts; or not looked at */
@@ -139,9 +146,11 @@ KERNEL_PART void limit_outflow(const struct model_state *s, double dt, struct wi
 		pays[j] = out > h[j] ? h[j] * (1 - 1e-12) / out : 1;
 	}
 	for (int f = 0; f < r->faces; f++) {
-		double left = pays[f], right = pays[f + 1];
+		double left = pays[f], right = pays[f + 1], share = flux[f] > 0 ? left : right;
+		bool blocked =
+			emerges(h[f], b[f], h[f + 1], b[f + 1]) | emerges(h[f + 1], b[f + 1], h[f], b[f]);
 
-		r->share[f] = flux[f] > 0 ? left : right;
+		r->share[f] = blocked ? 0 : share;
 	}
 }
 

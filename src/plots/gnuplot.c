@@ -28,7 +28,7 @@ static int write_script(int fd, const struct text *script, struct error *err)
 	return 0;
 }
 
-static int start(const char *folder, int input, int output, pid_t *pid, struct error *err)
+static int start(int input, int output, pid_t *pid, struct error *err)
 {
 	/* -d: the settings of whoever runs it would change the figure, or do something else */
 	char *const arguments[] = {"gnuplot", "-d", "-", NULL};
@@ -39,8 +39,7 @@ static int start(const char *folder, int input, int output, pid_t *pid, struct e
 		return error_memory(err, sizeof actions);
 	if (posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO) ||
 		posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO) ||
-		posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO) ||
-		posix_spawn_file_actions_addchdir_np(&actions, folder)) {
+		posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO)) {
 		error_memory(err, sizeof actions);
 		failure = -1;
 	} else {
@@ -82,7 +81,7 @@ static int judge(int status, int output, struct error *err)
 	return error_set(err, EX_SOFTWARE, "gnuplot failed: %s", complaint);
 }
 
-int gnuplot_run(const char *folder, const struct text *script, struct error *err)
+int gnuplot_run(const struct text *script, struct error *err)
 {
 	int input = memfd_create("talus-figure", MFD_CLOEXEC);
 	int output = memfd_create("talus-gnuplot", MFD_CLOEXEC);
@@ -94,7 +93,7 @@ int gnuplot_run(const char *folder, const struct text *script, struct error *err
 		goto done;
 	}
 	(void)fflush(NULL);
-	if (write_script(input, script, err) || start(folder, input, output, &pid, err))
+	if (write_script(input, script, err) || start(input, output, &pid, err))
 		goto done;
 	while (waitpid(pid, &status, 0) < 0)
 		if (errno != EINTR) {

@@ -5,9 +5,9 @@
 #include "talus/error.h"
 #include "talus/text.h"
 
-/* Run a script in `folder`, without a shell, without init files and with nothing to read but the
+/* Run a script, without a shell, without init files and with nothing to read but the
  * script. EX_UNAVAILABLE: there is no gnuplot, or one without the output wanted; EX_SOFTWARE: it did
  * not like the script (says why). */
-int gnuplot_run(const char *folder, const struct text *script, struct error *err);
+int gnuplot_run(const struct text *script, struct error *err);
 
 #endif

@@ -222,7 +222,8 @@ static int add_slice(const struct kind_request *request, const struct kind_run *
 	TRY(dataset_axis(request, run, kind->upright ? 0 : 1, name, &factor, err));
 	multiply(slice->values, slice->count, factor);
 	if (kind->upright) {
-		TRY(stretch(request, run, slice_has_axis(run->file, name, "station"), place, slice, err));
+		TRY(stretch(
+			request, run, slice_has_axis(run->file, name, "station", err), place, slice, err));
 	} else {
 		TRY(dataset_axis(request, run, 0, place->along, &factor, err));
 		multiply(slice->axis, slice->count, factor);
@@ -271,10 +272,12 @@ static int add_layers(const struct kind_request *request, const struct kind_run 
 	const struct kind *kind, const char *name, const struct cut *at, struct error *err)
 {
 	const struct kind_cuts *cuts = request->cuts;
-	const char *layers = slice_layer_axis(run->file, name);
+	const char *layers = slice_layer_axis(run->file, name, err);
 	bool has_layers = layers && strcmp(at->place.along, layers) != 0;
 	size_t count = has_layers && cuts->layer_count ? cuts->layer_count : 1;
 
+	if (err->code)
+		return -1;
 	for (size_t k = 0; k < count; k++) {
 		struct cut cut = *at;
 
@@ -292,11 +295,13 @@ static int add_places(const struct kind_request *request, const struct kind_run 
 	const struct kind *kind, const char *name, const struct cut *at, struct error *err)
 {
 	const struct kind_cuts *cuts = request->cuts;
-	const char *axis = slice_position_axis(run->file, name);
+	const char *axis = slice_position_axis(run->file, name, err);
 	double *all = NULL;
 	size_t count = cuts->position_count;
 	int result = 0;
 
+	if (err->code)
+		return -1;
 	if (!axis || !strcmp(at->place.along, axis) || (!count && !strcmp(axis, "x")))
 		return add_layers(request, run, kind, name, at, err);
 	if (!count && slice_axis(run->file, axis, &all, &count, err))
@@ -315,9 +320,10 @@ static int add_places(const struct kind_request *request, const struct kind_run 
 }
 
 /* The axis of the dataset that stays: across the layers it is known by two names. */
-static const char *along_of(const struct kind *kind, const struct kind_run *run, const char *name)
+static const char *along_of(
+	const struct kind *kind, const struct kind_run *run, const char *name, struct error *err)
 {
-	const char *layers = slice_layer_axis(run->file, name);
+	const char *layers = slice_layer_axis(run->file, name, err);
 
 	return !strcmp(kind->along, "layer") && layers ? layers : kind->along;
 }
@@ -326,13 +332,15 @@ static int add_lines(const struct kind_request *request, const struct kind_run *
 	const char *name, const struct kind *kind, struct error *err)
 {
 	const struct kind_cuts *cuts = request->cuts;
-	const char *axis = slice_time_axis(run->file, name);
+	const char *axis = slice_time_axis(run->file, name, err);
 	bool timed = axis && strcmp(kind->along, axis) != 0;
-	struct cut cut = {.place = {along_of(kind, run, name), NAN, NAN, SLICE_FIRST}};
+	struct cut cut = {.place = {along_of(kind, run, name, err), NAN, NAN, SLICE_FIRST}};
 	double *times = NULL, stride;
 	size_t count = 0;
 	int result = 0;
 
+	if (err->code)
+		return -1;
 	if (!timed || (!cuts->all_times && !cuts->time_count))
 		return add_places(request, run, kind, name, &cut, err);
 	if (cuts->all_times && slice_axis(run->file, axis, &times, &count, err))

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include "base/file.h"
@@ -31,62 +32,62 @@ void plots_output_clean(struct plots_output *output)
 	text_clean(&output->notes);
 }
 
-/* Names of one file of a figure: what gnuplot writes, and what it becomes. */
-struct file_names {
-	char *drawn, *path; /* path of both */
-	char *name;         /* of what gnuplot writes, within the folder */
+/* One file of a figure. gnuplot draws it in memory: it does not tell when a disk is full. */
+struct drawing {
 	const char *format;
+	char *name;      /* within the folder */
+	int fd;          /* -1: none */
+	char source[32]; /* the path that gnuplot writes to */
 };
 
-static void names_clean(struct file_names *names)
+static void drawings_clean(struct drawing *drawings, size_t count)
 {
-	for (int i = 0; i < FORMATS; i++) {
-		if (names[i].drawn)
-			(void)unlink(names[i].drawn);
-		free(names[i].drawn);
-		free(names[i].path);
-		free(names[i].name);
+	for (size_t i = 0; i < count; i++) {
+		if (drawings[i].fd >= 0)
+			(void)close(drawings[i].fd);
+		free(drawings[i].name);
 	}
 }
 
-static int name_files(const struct plots_output *output, const char *name, struct file_names *names,
-	size_t *count, struct error *err)
+static int drawings_open(
+	unsigned formats, const char *name, struct drawing *drawings, size_t *count, struct error *err)
 {
 	*count = 0;
 	for (unsigned i = 0; i < FORMATS; i++) {
-		struct file_names *one = &names[*count];
-		const char *format = format_names[i];
+		struct drawing *one = &drawings[*count];
 
-		if (!(output->formats & 1U << i))
+		if (!(formats & 1U << i))
 			continue;
 		++*count;
-		one->format = format;
-		if (asprintf(&one->name, ".%s.%ld.%s", name, (long)getpid(), format) < 0)
+		*one = (struct drawing){.format = format_names[i], .fd = memfd_create(name, 0)};
+		(void)snprintf(one->source, sizeof one->source, "/dev/fd/%d", one->fd);
+		if (asprintf(&one->name, "%s.%s", name, one->format) < 0) {
 			one->name = NULL;
-		else if (asprintf(&one->drawn, "%s/%s", output->folder, one->name) < 0)
-			one->drawn = NULL;
-		else if (asprintf(&one->path, "%s/%s.%s", output->folder, name, format) < 0)
-			one->path = NULL;
-		if (!one->path)
-			return error_memory(err, strlen(output->folder) + strlen(name));
+			return error_memory(err, strlen(name));
+		}
+		if (one->fd < 0)
+			return error_set(err, EX_SOFTWARE, "no file in memory: %s", strerror(errno));
 	}
 	return 0;
 }
 
 /* What gnuplot drew takes the place of the figure that was there. */
-static int replace_files(
-	struct plots_output *output, const struct file_names *names, size_t count, struct error *err)
+static int replace_file(
+	struct plots_output *output, const struct drawing *drawing, struct error *err)
 {
-	for (size_t i = 0; i < count; i++) {
-		if (!names[i].drawn || access(names[i].drawn, R_OK) != 0)
-			return error_at(err, EX_IOERR, names[i].path, 0, 0,
-				"was not drawn: the disk may be full (%s)", strerror(errno));
-		if (rename(names[i].drawn, names[i].path) != 0)
-			return error_at(
-				err, EX_CANTCREAT, names[i].path, 0, 0, "cannot be written: %s", strerror(errno));
-		text_addf(&output->written, "%s\n", names[i].path);
-	}
-	return 0;
+	const struct file_place place = {.folder = output->folder, .name = drawing->name};
+	struct file_part part = {0};
+	unsigned char *bytes;
+	int result;
+
+	TRY(file_read(drawing->source, &bytes, &part.size, err));
+	part.bytes = bytes;
+	result = part.size ? file_replace(&place, &part, 1, err)
+					   : error_set(err, EX_SOFTWARE, "gnuplot drew nothing of %s", drawing->name);
+	free(bytes);
+	if (!result)
+		text_addf(&output->written, "%s/%s\n", output->folder, drawing->name);
+	return result;
 }
 
 /* A run that is missing in several panels is named once. */
@@ -107,7 +108,7 @@ static void add_missing(struct plots_output *output, const char *lines)
 
 int plots_write(const struct figure *figure, struct plots_output *output, struct error *err)
 {
-	struct file_names names[FORMATS] = {{0}};
+	struct drawing drawings[FORMATS];
 	struct script_output outputs[FORMATS];
 	struct text script = {0};
 	size_t count = 0;
@@ -117,23 +118,17 @@ int plots_write(const struct figure *figure, struct plots_output *output, struct
 	if (!figure->panel_count)
 		return 0;
 	if (file_make_folders(output->folder, err) ||
-		name_files(output, figure->name, names, &count, err))
+		drawings_open(output->formats, figure->name, drawings, &count, err))
 		goto done;
-	if (access(output->folder, W_OK | X_OK) != 0) {
-		error_at(
-			err, EX_CANTCREAT, output->folder, 0, 0, "cannot be written to: %s", strerror(errno));
-		goto done;
-	}
 	for (size_t i = 0; i < count; i++)
-		outputs[i] = (struct script_output){names[i].format, names[i].name};
+		outputs[i] = (struct script_output){drawings[i].format, drawings[i].source};
 	script_write(figure, outputs, count, &script);
-	if (script.failed)
-		error_memory(err, script.length);
-	else if (!gnuplot_run(output->folder, &script, err))
-		result = replace_files(output, names, count, err);
+	result = script.failed ? error_memory(err, script.length) : gnuplot_run(&script, err);
+	for (size_t i = 0; !result && i < count; i++)
+		result = replace_file(output, &drawings[i], err);
 done:
 	text_clean(&script);
-	names_clean(names);
+	drawings_clean(drawings, count);
 	return result;
 }
 

@@ -73,7 +73,7 @@ static char *name_of(const char *path)
 static int open_source(
 	struct run_source *source, const char *path, struct text *missing, struct error *err)
 {
-	struct text warning = {0}, config = {0};
+	struct text warning = {0};
 	struct error unknown = {0};
 
 	source->name = name_of(path);
@@ -87,11 +87,8 @@ static int open_source(
 	}
 	if (warning.length)
 		text_addf(missing, "%s: %s\n", path, text_string(&warning));
-	if (!run_file_text(source->file, "config", &config, &unknown))
-		source->config_known = config_parse(&source->config, text_string(&config), config.length,
-								   path, NULL, 0, &unknown) == 0;
+	source->config_known = run_file_config(source->file, &source->config, &unknown) == 0;
 	text_clean(&warning);
-	text_clean(&config);
 	if (unknown.code != EX_SOFTWARE)
 		return 0;
 	*err = unknown;
@@ -186,16 +183,16 @@ static int find_datasets(const struct run_sources *sources, bool columns, struct
 		TRY(run_file_scale_length(file, "x", 0, &cells, err));
 	for (char *name = list->data ? strtok_r(list->data, "\n", &rest) : NULL; name;
 		 name = strtok_r(NULL, "\n", &rest)) {
-		bool fits = columns
-						? slice_layer_axis(file, name + 1) &&
-							  slice_has_axis(file, name + 1, "profile_time") && cells <= 1
-						: slice_has_axis(file, name + 1, "time") && strncmp(name, "/cpu", 4) != 0 &&
-							  strcmp(name, "/time") != 0 && strcmp(name, "/dt") != 0;
+		bool fits = columns ? slice_layer_axis(file, name + 1, err) &&
+								  slice_has_axis(file, name + 1, "profile_time", err) && cells <= 1
+							: slice_has_axis(file, name + 1, "time", err) &&
+								  strncmp(name, "/cpu", 4) != 0 && strcmp(name, "/time") != 0 &&
+								  strcmp(name, "/dt") != 0;
 
 		if (fits && !strchr(name + 1, '/') && *count < FOUND_MAX)
 			names[(*count)++] = name + 1;
 	}
-	return 0;
+	return err->code ? -1 : 0;
 }
 
 static int draw_found(

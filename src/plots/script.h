@@ -4,10 +4,10 @@
 
 #include "plots/figure.h"
 
-/* A way to draw, and the name that gnuplot gives its file. */
+/* A way to draw, and the file that gnuplot writes to. */
 struct script_output {
 	const char *format; /* "svg", "png", "pdf" */
-	const char *file;   /* letters, digits and -._ only */
+	const char *file;   /* letters, digits and -._/ only */
 };
 
 /* Everything that is not this program's own is quoted so that gnuplot shows it and does nothing else. */

@@ -9,46 +9,47 @@
 
 enum { RANK_MAX = 3 };
 
-static bool axis_is(struct run_file *file, const char *name, int axis, const char *wanted)
+static bool axis_is(
+	struct run_file *file, const char *name, int axis, const char *wanted, struct error *err)
 {
 	struct text text = {0};
-	bool same;
+	bool same = run_file_scale_name(file, name, axis, &text, err) == 0 &&
+				!strcmp(text_string(&text), wanted);
 
-	run_file_scale_name(file, name, axis, &text);
-	same = !strcmp(text_string(&text), wanted);
 	text_clean(&text);
 	return same;
 }
 
-bool slice_has_axis(struct run_file *file, const char *name, const char *axis)
+bool slice_has_axis(struct run_file *file, const char *name, const char *axis, struct error *err)
 {
 	for (int i = 0; i < RANK_MAX; i++)
-		if (axis_is(file, name, i, axis))
+		if (axis_is(file, name, i, axis, err))
 			return true;
 	return false;
 }
 
 /* The first of these axes that the dataset has. */
-static const char *first_axis(struct run_file *file, const char *name, const char *const *axes)
+static const char *first_axis(
+	struct run_file *file, const char *name, const char *const *axes, struct error *err)
 {
-	while (*axes && !slice_has_axis(file, name, *axes))
+	while (*axes && !slice_has_axis(file, name, *axes, err))
 		axes++;
 	return *axes;
 }
 
-const char *slice_layer_axis(struct run_file *file, const char *name)
+const char *slice_layer_axis(struct run_file *file, const char *name, struct error *err)
 {
-	return first_axis(file, name, (const char *const[]){"layer", "interface", NULL});
+	return first_axis(file, name, (const char *const[]){"layer", "interface", NULL}, err);
 }
 
-const char *slice_position_axis(struct run_file *file, const char *name)
+const char *slice_position_axis(struct run_file *file, const char *name, struct error *err)
 {
-	return first_axis(file, name, (const char *const[]){"x", "gauge", "station", NULL});
+	return first_axis(file, name, (const char *const[]){"x", "gauge", "station", NULL}, err);
 }
 
-const char *slice_time_axis(struct run_file *file, const char *name)
+const char *slice_time_axis(struct run_file *file, const char *name, struct error *err)
 {
-	return first_axis(file, name, (const char *const[]){"profile_time", "time", NULL});
+	return first_axis(file, name, (const char *const[]){"profile_time", "time", NULL}, err);
 }
 
 /* Numbers along one dimension. */
@@ -152,19 +153,19 @@ static int find_layer(int layer, bool interface, size_t count, size_t *index, st
 static int find_index(struct run_file *file, const char *name, int i, size_t count,
 	const struct slice_place *place, size_t *index, struct error *err)
 {
-	if (axis_is(file, name, i, "profile_time"))
+	if (axis_is(file, name, i, "profile_time", err))
 		return find_time(file, place->time, index, err);
-	if (axis_is(file, name, i, "time"))
+	if (axis_is(file, name, i, "time", err))
 		return find_nearest(file, "time", place->time, index, &(double){0}, err);
-	if (axis_is(file, name, i, "gauge"))
+	if (axis_is(file, name, i, "gauge", err))
 		return find_position(file, "gauge", place->x, count, index, err);
-	if (axis_is(file, name, i, "station"))
+	if (axis_is(file, name, i, "station", err))
 		return find_position(file, "station", place->x, count, index, err);
-	if (axis_is(file, name, i, "x"))
+	if (axis_is(file, name, i, "x", err))
 		return find_x(file, place->x, count, index, err);
-	if (axis_is(file, name, i, "layer"))
+	if (axis_is(file, name, i, "layer", err))
 		return find_layer(place->layer, false, count, index, err);
-	if (axis_is(file, name, i, "interface"))
+	if (axis_is(file, name, i, "interface", err))
 		return find_layer(place->layer, true, count, index, err);
 	return error_set(err, EX_DATAERR, "dataset '%s' is not over %s", name,
 		place->along ? place->along : "a profile time");
@@ -177,7 +178,7 @@ static int cut(struct run_file *file, const char *name, const struct slice_place
 
 	out->count = 1;
 	for (int i = data->rank; i-- > 0; stride *= data->extent[i]) {
-		if (place->along && axis_is(file, name, i, place->along)) {
+		if (place->along && axis_is(file, name, i, place->along, err)) {
 			step = stride;
 			out->count = data->extent[i];
 			continue;

@@ -31,17 +31,18 @@ int slice_read(struct run_file *file, const char *name, const struct slice_place
 
 void slice_clean(struct slice *slice);
 
-/* Has the dataset an axis of this name? */
-bool slice_has_axis(struct run_file *file, const char *name, const char *axis);
+/* Has the dataset an axis of this name? False with `err` set where it cannot be read. */
+bool slice_has_axis(struct run_file *file, const char *name, const char *axis, struct error *err);
 
-/* The name of the axis across the layers that a dataset has: "layer", "interface", NULL: none. */
-const char *slice_layer_axis(struct run_file *file, const char *name);
+/* The name of the axis across the layers that a dataset has: "layer", "interface", NULL: none,
+ * or `err` is set. */
+const char *slice_layer_axis(struct run_file *file, const char *name, struct error *err);
 
 /* The name of the axis of positions: "x", or "gauge" or "station" of what is recorded at few; NULL. */
-const char *slice_position_axis(struct run_file *file, const char *name);
+const char *slice_position_axis(struct run_file *file, const char *name, struct error *err);
 
 /* The name of the axis of times: "profile_time" or "time"; NULL. */
-const char *slice_time_axis(struct run_file *file, const char *name);
+const char *slice_time_axis(struct run_file *file, const char *name, struct error *err);
 
 /* The values of an axis. `values` belongs to the caller. */
 int slice_axis(

@@ -5,6 +5,29 @@
 
 #include "run/run_file_parts.h"
 
+/* The keys by which the configs differ, where both can be read. */
+static int compare_configs(
+	struct run_file *a, struct run_file *b, struct text *out, struct error *err)
+{
+	struct config first, second;
+	struct error unreadable = {0};
+	struct text keys = {0};
+	char *rest;
+
+	if (run_file_config(a, &first, &unreadable) == 0 &&
+		run_file_config(b, &second, &unreadable) == 0)
+		config_differences(&first, &second, &keys);
+	if (unreadable.code == EX_SOFTWARE)
+		*err = unreadable;
+	else if (keys.failed)
+		error_memory(err, keys.capacity);
+	for (char *key = keys.data ? strtok_r(keys.data, "\n", &rest) : NULL; key;
+		 key = strtok_r(NULL, "\n", &rest))
+		text_addf(out, "config %s\n", key);
+	text_clean(&keys);
+	return err->code ? -1 : 0;
+}
+
 static int compare_attributes(
 	struct run_file *a, struct run_file *b, struct text *out, struct error *err)
 {
@@ -21,7 +44,9 @@ static int compare_attributes(
 		text_addf(out, "config_hash: %s -> %s\n", text_string(&first), text_string(&second));
 	if (version[0] != version[1])
 		text_addf(out, "numerics_version: %g -> %g\n", version[0], version[1]);
-	result = 0;
+	result = strcmp(text_string(&first), text_string(&second)) != 0
+				 ? compare_configs(a, b, out, err)
+				 : 0;
 done:
 	text_clean(&first);
 	text_clean(&second);

@@ -43,7 +43,7 @@ static int summarise(
 static void read_content(const char *folder, struct run_report *report)
 {
 	struct run_file *file = NULL;
-	struct text warning = {0}, config_text = {0}, reason = {0};
+	struct text warning = {0}, reason = {0};
 	struct error ignored = {0};
 	struct config config;
 	double attempts;
@@ -53,9 +53,7 @@ static void read_content(const char *folder, struct run_report *report)
 	if (run_file_real(file, "attempts", &attempts, &ignored) == 0 && attempts < 1e9)
 		report->attempts = (int)attempts;
 	(void)run_file_real(file, "cpu_seconds", &report->cpu_seconds, &ignored);
-	if (run_file_text(file, "config", &config_text, &ignored) == 0 &&
-		config_parse(
-			&config, text_string(&config_text), config_text.length, folder, NULL, 0, &ignored) == 0)
+	if (run_file_config(file, &config, &ignored) == 0)
 		report->end = config.time.end;
 	if (run_file_text(file, "reason", &reason, &ignored) == 0)
 		(void)snprintf(report->reason, sizeof report->reason, "%s", text_string(&reason));
@@ -63,7 +61,6 @@ done:
 	run_file_close(file);
 	report->unknown |= ignored.code == EX_SOFTWARE;
 	text_clean(&warning);
-	text_clean(&config_text);
 	text_clean(&reason);
 }
 

@@ -16,31 +16,37 @@
 /* What the run in the folder asks for. */
 enum course { START, RESUME, CONTINUE, NOTHING };
 
+/* Of differences between configs, a line each. */
+static bool is_end_alone(const char *keys)
+{
+	return !strncmp(keys, "time.end:", 9) && !strchr(keys, '\n')[1];
+}
+
 /* Refuse a file that this config and this program would not have made. One whose run has an earlier end
  * and else the same config is a beginning of this run: `*earlier` is then its end, else NaN. */
 static int compare_config(
 	const struct attempt *attempt, struct run_file *file, double *earlier, struct error *err)
 {
-	struct text stored = {0}, keys = {0}, list = {0};
+	struct text keys = {0}, list = {0};
 	struct error unreadable = {0};
 	struct config config;
 	int result = -1;
+	bool later;
 	char *rest;
 
 	*earlier = NAN;
 	if (!strcmp(run_file_summary(file)->config_hash, attempt->config_hash))
 		return 0;
-	if (run_file_text(file, "config", &stored, err) != 0)
-		goto done;
-	if (config_parse(&config, text_string(&stored), stored.length, run_file_path(file), NULL, 0,
-			&unreadable) == 0)
+	if (run_file_config(file, &config, &unreadable) == 0)
 		config_differences(&config, attempt->config, &keys);
-	if (unreadable.code == EX_SOFTWARE) {
+	if (unreadable.code == EX_SOFTWARE || keys.failed) {
 		*err = unreadable;
+		if (keys.failed)
+			error_memory(err, keys.capacity);
 		goto done;
 	}
-	if (keys.length && config.time.end < attempt->config->time.end &&
-		config_is_alike(&config, attempt->config)) {
+	later = keys.length && config.time.end < attempt->config->time.end;
+	if (later && is_end_alone(keys.data)) {
 		*earlier = config.time.end;
 		result = 0;
 		goto done;
@@ -49,10 +55,12 @@ static int compare_config(
 		 key = strtok_r(NULL, "\n", &rest))
 		text_addf(&list, list.length ? ", %s" : "%s", key);
 	error_at(err, EX_DATAERR, run_file_path(file), 0, 0,
-		"was made from another config (%s); name another folder with -o, or remove this one",
-		list.length ? text_string(&list) : "one that this version cannot read");
+		"was made from another config (%s); %sname another folder with -o, or remove this one",
+		list.length ? text_string(&list) : "one that this version cannot read",
+		later ? "it goes on to a later time.end where nothing else changes: leave the other keys as "
+				"they were, or "
+			  : "");
 done:
-	text_clean(&stored);
 	text_clean(&keys);
 	text_clean(&list);
 	return result;
@@ -124,18 +132,26 @@ static int failed_before(const struct attempt *attempt, struct run_file *file, s
 	return -1;
 }
 
-/* A finished run with an earlier end stays beside the one that goes on from it. */
+/* A finished run with an earlier end stays beside the one that goes on from it, under this name. */
+enum { KEPT_SIZE = TEXT_REAL_SIZE + 16 };
+static char *kept_name(double end, char name[KEPT_SIZE])
+{
+	char number[TEXT_REAL_SIZE];
+
+	(void)snprintf(name, KEPT_SIZE, "run.end-%s.h5", text_real(end, number));
+	return name;
+}
+
 static int keep_earlier(
 	const struct attempt *attempt, struct run_file *file, double earlier, struct error *err)
 {
-	char number[TEXT_REAL_SIZE], name[TEXT_REAL_SIZE + 16];
+	char number[TEXT_REAL_SIZE], name[KEPT_SIZE];
 	struct text path = {0};
 	unsigned char *bytes = NULL;
 	size_t size;
 	int result = 0;
 
-	(void)snprintf(name, sizeof name, "run.end-%s.h5", text_real(earlier, number));
-	TRY(file_path(&path, attempt->folder, name, err));
+	TRY(file_path(&path, attempt->folder, kept_name(earlier, name), err));
 	if (!file_exists(text_string(&path)))
 		result = file_read(run_file_path(file), &bytes, &size, err) != 0 ||
 						 file_replace(
@@ -147,9 +163,43 @@ static int keep_earlier(
 	free(bytes);
 	if (result == 0)
 		attempt_say(attempt, RUN_VOICE_RESULT,
-			"%s: goes on from the run to %s s, which is kept as %s", attempt->folder, number, name);
+			"%s: goes on from the run to %s s, which is kept as %s", attempt->folder,
+			text_real(earlier, number), name);
 	text_clean(&path);
 	return result;
+}
+
+/* run.h5 is another run, with the error `err`. This one may have been finished before that went on from
+ * it: then it takes the place of `*file`. */
+static int find_kept(
+	struct attempt *attempt, struct run_file **file, enum course *course, struct error *err)
+{
+	char name[KEPT_SIZE];
+	const char *remark;
+	struct text path = {0};
+	struct error other = {0};
+	struct run_file *kept = NULL;
+	double earlier;
+	bool found = err->code == EX_DATAERR &&
+				 file_path(&path, attempt->folder, kept_name(attempt->config->time.end, name),
+					 &other) == 0 &&
+				 run_file_open(text_string(&path), &kept, &remark, &other) == 0 &&
+				 run_file_summary(kept)->status == RUN_COMPLETE &&
+				 compare_config(attempt, kept, &earlier, &other) == 0 && isnan(earlier) &&
+				 compare_numerics(attempt, kept, &other) == 0;
+
+	text_clean(&path);
+	if (found) {
+		run_file_close(*file);
+		*file = kept;
+		*course = NOTHING;
+		*err = (struct error){0};
+		return 0;
+	}
+	run_file_close(kept);
+	if (other.code == EX_SOFTWARE)
+		*err = other;
+	return -1;
 }
 
 /* The run of options->from, if it is a beginning of this one. One that is not, or cannot be read, is
@@ -242,7 +292,8 @@ static int find_course(
 		attempt->created[0] = '\0';
 		return 0;
 	}
-	TRY(compare_config(attempt, *file, &earlier, err));
+	if (compare_config(attempt, *file, &earlier, err) != 0)
+		return find_kept(attempt, file, course, err);
 	TRY(compare_numerics(attempt, *file, err));
 	if (status == RUN_FAILED)
 		return failed_before(attempt, *file, err);
@@ -333,8 +384,8 @@ static int live(struct attempt *attempt, struct error *err)
 	}
 	if (course == NOTHING) {
 		attempt_say(attempt, RUN_VOICE_RESULT, "%s: already complete, %llu steps to t = %g s",
-			attempt->folder, (unsigned long long)run_file_summary(file)->step,
-			run_file_summary(file)->time);
+			run_file_is_newest(file) ? attempt->folder : run_file_path(file),
+			(unsigned long long)run_file_summary(file)->step, run_file_summary(file)->time);
 		goto done;
 	}
 	result = write_config(attempt, err);

@@ -272,6 +272,17 @@ int run_file_real(struct run_file *file, const char *name, double *out, struct e
 	return result;
 }
 
+int run_file_config(struct run_file *file, struct config *config, struct error *err)
+{
+	struct text text = {0};
+	int result = run_file_text(file, "config", &text, err);
+
+	if (result == 0)
+		result = config_parse(config, text_string(&text), text.length, file->path, NULL, 0, err);
+	text_clean(&text);
+	return result;
+}
+
 /* Open a dataset of numbers and tell its shape. */
 static hid_t open_dataset(
 	struct run_file *file, const char *path, struct dataset *shape, struct error *err)
@@ -396,6 +407,16 @@ int run_file_scale_length(
 	return result < 0 ? -1 : 0;
 }
 
+static int axis_count(hid_t dataset)
+{
+	hid_t space = H5Dget_space(dataset);
+	int rank = space < 0 ? -1 : H5Sget_simple_extent_ndims(space);
+
+	if (space >= 0)
+		(void)H5Sclose(space);
+	return rank;
+}
+
 static herr_t read_scale_name(hid_t dataset, unsigned axis, hid_t scale, void *out)
 {
 	char name[256];
@@ -408,17 +429,30 @@ static herr_t read_scale_name(hid_t dataset, unsigned axis, hid_t scale, void *o
 	return 1; /* the first is enough */
 }
 
-void run_file_scale_name(struct run_file *file, const char *path, int axis, struct text *out)
+int run_file_scale_name(
+	struct run_file *file, const char *path, int axis, struct text *out, struct error *err)
 {
-	hid_t id = H5Dopen2(file->id, path, H5P_DEFAULT);
+	int rank = 0, result = 0;
+	htri_t scale;
+	hid_t id;
 
-	if (id < 0)
-		return;
-	if (H5DSis_scale(id) > 0)
-		(void)read_scale_name(id, 0, id, out);
-	else
-		(void)H5DSiterate_scales(id, (unsigned)axis, NULL, read_scale_name, out);
-	(void)H5Dclose(id);
+	if (H5Lexists(file->id, path, H5P_DEFAULT) == 0)
+		return 0;
+	id = H5Dopen2(file->id, path, H5P_DEFAULT);
+	scale = id < 0 ? -1 : H5DSis_scale(id);
+	if (scale > 0)
+		result = read_scale_name(id, 0, id, out);
+	else if (scale == 0)
+		rank = axis_count(id);
+	if (axis < rank)
+		result = H5DSiterate_scales(id, (unsigned)axis, NULL, read_scale_name, out);
+	if (out->failed)
+		result = error_memory(err, out->capacity);
+	else if (scale < 0 || rank < 0 || result < 0)
+		result = unreadable(file, "the axes of dataset", path, err);
+	if (id >= 0)
+		(void)H5Dclose(id);
+	return result < 0 ? -1 : 0;
 }
 
 /* H5Lexists fails where a group on the way is absent: so go down step by step. */

@@ -2,6 +2,7 @@
 #ifndef TALUS_RUN_FILE_PARTS_H
 #define TALUS_RUN_FILE_PARTS_H
 
+#include "talus/config.h"
 #include "talus/run_file.h"
 
 #define RUN_FILE_NEWEST "run.h5"
@@ -26,6 +27,9 @@ bool run_file_is_newest(const struct run_file *file);
 /* The HDF5 image, owned by `file`. */
 unsigned char *run_file_image(const struct run_file *file, size_t *size);
 
+/* The config that the file was made from. EX_DATAERR: one that this version cannot read; EX_SOFTWARE. */
+int run_file_config(struct run_file *file, struct config *config, struct error *err);
+
 /* The path of every dataset, sorted, one a line. */
 int run_file_names(struct run_file *file, struct text *out, struct error *err);
 
@@ -42,7 +46,8 @@ int run_file_dataset_text(
 	struct run_file *file, const char *path, const char *name, struct text *out, struct error *err);
 
 /* The name of the scale that axis `axis` of a dataset has; nothing is added without one. */
-void run_file_scale_name(struct run_file *file, const char *path, int axis, struct text *out);
+int run_file_scale_name(
+	struct run_file *file, const char *path, int axis, struct text *out, struct error *err);
 
 /* Read a dataset of exactly `count` values. EX_DATAERR. */
 int run_file_fill(

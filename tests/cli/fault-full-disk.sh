@@ -60,6 +60,26 @@ mount -o remount,size=64m disk
 talus campaign run -j 1 -o disk/study study.yaml | tail -n 1
 umount disk
 
+echo '== figures and tables'
+full 64
+printf 'base: collapse.yaml\ntables: [{name: t, rows: layers, metric: steps}]\n' >table.yaml
+talus campaign run table.yaml >/dev/null
+for format in svg png pdf; do
+	talus plot -f $format -o disk/figures straight >out 2>message
+	code=$?
+	((code == 74)) && grep -q '^talus: disk/figures/.* cannot write: No space left on device; .* needed$' message ||
+		echo "$format: exit $code: $(cat message)"
+	# what is said to be there is whole
+	ls -A disk/figures | sed 's|^|disk/figures/|' | diff <(sort out) - && [[ ! $(find disk/figures -size -1k) ]] || ls -l disk/figures
+	head -c 64k /dev/zero >disk/rest 2>/dev/null
+	talus plot -f $format -o disk/figures straight 2>/dev/null || echo "exit $?"
+	rm -r disk/figures disk/rest
+done
+head -c 64k /dev/zero >disk/rest
+talus tables table.yaml >disk/table
+echo "exit $?"
+umount disk
+
 echo '== read-only'
 full 4096
 talus run "${config[@]}" --set time.end=0.1 --set output.profiles_at=[] -o disk/run

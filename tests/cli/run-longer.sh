@@ -16,3 +16,10 @@ talus run small.yaml -o c -s time.end=0.7 -s layers=1 --continue-from a | clocks
 talus run small.yaml -o d -s time.end=0.7 --continue-from none | clocks
 talus run small.yaml -o a
 echo "exit $?"
+talus run small.yaml -o a -s time.end=0.4
+echo "exit $?"
+talus run small.yaml -o a -s time.end=0.8 -s output.profiles_at="[0.1, 0.7]"
+echo "exit $?"
+echo "-- the config keys that differ"
+talus diff a a/run.end-0.3.h5 | grep config
+talus diff a d | grep config | sed 's/hash: .*/hash/'

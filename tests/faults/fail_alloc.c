@@ -1,22 +1,13 @@
 /* To be preloaded: the n-th allocation of the process fails, wherever it is asked for, in libc, HDF5 and
- * libyaml too. $FAIL_ALLOC is n, with a '+' behind it for all from the n-th on. $COUNT_ALLOC names a file
- * that gets the number of allocations at the end. With $FAIL_OURS only those count that the program itself
- * asks for, and no library. Children are left in peace. */
+ * libyaml too. With $FAIL_OURS only those count that the program itself asks for, and no library. */
 #include <dlfcn.h>
-#include <errno.h>
-#include <fcntl.h>
 #include <link.h>
-#include <stdbool.h>
 #include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
-static long count, fail_at;
-static bool armed, stays, ours;
+#include "fail_alloc.h"
+
+static bool ours;
 static uintptr_t program_begin, program_end;
-static const char *count_file;
 
 /* What we stand before. */
 static void *(*next_malloc)(size_t);
@@ -56,38 +47,32 @@ static bool found(void)
 	return true;
 }
 
-static bool fails(const void *caller)
+static bool fails_for(const void *caller)
 {
 	uintptr_t place = (uintptr_t)caller;
 
-	if (!armed || (ours && (place < program_begin || place >= program_end)))
-		return false;
-	count++;
-	if (!fail_at || (stays ? count < fail_at : count != fail_at))
-		return false;
-	errno = ENOMEM;
-	return true;
+	return !(ours && (place < program_begin || place >= program_end)) && fails();
 }
 
 void *malloc(size_t size)
 {
 	if (!found())
 		return early_alloc(size);
-	return fails(__builtin_return_address(0)) ? NULL : next_malloc(size);
+	return fails_for(__builtin_return_address(0)) ? NULL : next_malloc(size);
 }
 
 void *calloc(size_t nmemb, size_t size)
 {
 	if (!found())
 		return early_alloc(nmemb * size);
-	return fails(__builtin_return_address(0)) ? NULL : next_calloc(nmemb, size);
+	return fails_for(__builtin_return_address(0)) ? NULL : next_calloc(nmemb, size);
 }
 
 void *realloc(void *ptr, size_t size)
 {
 	if (!found())
 		return NULL;
-	return fails(__builtin_return_address(0)) ? NULL : next_realloc(ptr, size);
+	return fails_for(__builtin_return_address(0)) ? NULL : next_realloc(ptr, size);
 }
 
 void free(void *ptr)
@@ -112,30 +97,8 @@ static int find_program(struct dl_phdr_info *info, size_t size, void *unused)
 	return 1;
 }
 
-__attribute__((constructor)) static void arm(void)
+__attribute__((constructor)) static void look(void)
 {
-	const char *wanted = getenv("FAIL_ALLOC");
-
-	count_file = getenv("COUNT_ALLOC");
-	fail_at = wanted ? strtol(wanted, NULL, 10) : 0;
-	stays = wanted && strchr(wanted, '+');
 	ours = getenv("FAIL_OURS") != NULL;
 	(void)dl_iterate_phdr(find_program, NULL);
-	(void)unsetenv("LD_PRELOAD");
-	armed = true;
-}
-
-/* Not in a child that was forked and has not become another program. */
-__attribute__((destructor)) static void tell(void)
-{
-	char text[32];
-	int fd, length;
-
-	armed = false;
-	fd = count_file ? open(count_file, O_WRONLY | O_CREAT | O_TRUNC, 0666) : -1;
-	if (fd < 0)
-		return;
-	length = snprintf(text, sizeof text, "%ld\n", count);
-	(void)!write(fd, text, (size_t)length);
-	(void)close(fd);
 }
