@@ -10,15 +10,26 @@
 
 enum model_kind { MODEL_DRY, MODEL_IMMERSED };
 enum pressure_kind { PRESSURE_HYDROSTATIC, PRESSURE_NON_HYDROSTATIC };
-enum boundary_kind { BOUNDARY_WALL, BOUNDARY_OUTFLOW };
-enum shape_kind { SHAPE_COLUMN, SHAPE_HEAP, SHAPE_TRIANGLE, SHAPE_LEVEL, SHAPE_CAP, SHAPE_FILE };
+enum boundary_kind { BOUNDARY_WALL, BOUNDARY_OUTFLOW, BOUNDARY_PERIODIC };
+enum shape_kind {
+	SHAPE_COLUMN,
+	SHAPE_HEAP,
+	SHAPE_TRIANGLE,
+	SHAPE_LEVEL,
+	SHAPE_CAP,
+	SHAPE_UNIFORM,
+	SHAPE_FILE,
+};
 enum coordinates_kind { COORDINATES_LOCAL, COORDINATES_CARTESIAN };
 enum given_kind { GIVEN_SAME, GIVEN_LOCAL, GIVEN_CARTESIAN };
 enum topography_kind { TOPOGRAPHY_PLANE, TOPOGRAPHY_BUMP, TOPOGRAPHY_RANDOM, TOPOGRAPHY_FILE };
+enum friction_kind { FRICTION_VISCOUS, FRICTION_COULOMB };
 enum thickness_kind { THICKNESS_WELL_BALANCED, THICKNESS_PLAIN };
-enum law_kind { LAW_MU_I, LAW_LINEAR };
+enum law_kind { LAW_MU_I, LAW_CONSTANT, LAW_LINEAR };
+enum strain_rate_kind { STRAIN_RATE_FIRST_ORDER, STRAIN_RATE_SECOND_ORDER };
+enum viscosity_kind { VISCOSITY_DELTA, VISCOSITY_BOUNDED };
 enum wave_speed_kind { WAVE_SPEED_FASTEST, WAVE_SPEED_MEAN };
-enum reconstruction_kind { RECONSTRUCTION_STATIC, RECONSTRUCTION_PRINTED };
+enum reconstruction_kind { RECONSTRUCTION_STATIC, RECONSTRUCTION_PRINTED, RECONSTRUCTION_CREEPING };
 enum method_kind {
 	METHOD_AUTO,
 	METHOD_BLOCK_GAUSS_SEIDEL,
@@ -56,8 +67,8 @@ struct config {
 	int coordinates; /* enum coordinates_kind: in which the model is integrated over the depth */
 	int n_ini_guess; /* layers of the coarse system behind the first guess; 0: none */
 	int preserves;   /* enum preserved_kind: what the mixture keeps (PGM or PH of P4) */
-	int bottom;      /* enum bottom_kind: lambda of P4 (21) */
-	int drag;        /* enum switch_kind: beta (u - v) in the momentum equations */
+	int bottom; /* enum bottom_kind: how far from the bottom the lowest layer is; lambda of P4 (21) */
+	int drag;   /* enum switch_kind: beta (u - v) in the momentum equations */
 	struct {
 		double x_min, x_max; /* m */
 		int cells;
@@ -97,6 +108,7 @@ struct config {
 	} fluid;
 	struct {
 		int law;                     /* enum law_kind */
+		int strain_rate;             /* enum strain_rate_kind */
 		double mu_s, mu_2, i_0, k_1; /* 1 */
 	} rheology;
 	struct {
@@ -109,8 +121,10 @@ struct config {
 		double width; /* of the channel, W, m */
 	} walls;
 	struct {
-		double strain_rate; /* delta in the viscosity, 1/s */
-		double velocity;    /* delta in the bottom friction, m/s */
+		int viscosity;            /* enum viscosity_kind: what keeps it finite */
+		double largest_viscosity; /* over rho sqrt(g cos(slope) h^3), 1 */
+		double strain_rate;       /* delta in the viscosity, 1/s */
+		double velocity;          /* delta in the friction with bottom and walls, m/s */
 	} regularisation;
 	struct {
 		double end;       /* s */
@@ -122,6 +136,7 @@ struct config {
 	} time;
 	struct {
 		int friction_reconstruction; /* enum reconstruction_kind: where dC of P1 (21) balances */
+		int friction;                /* enum friction_kind: how step 2 takes it */
 		int friction_thickness;      /* enum thickness_kind: what carries the friction, P1 (25) */
 	} scheme;
 	struct {

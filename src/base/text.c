@@ -143,6 +143,17 @@ char *text_excerpt(const char *string, char *buffer, size_t size)
 	return buffer;
 }
 
+char *text_tame(char *string)
+{
+	for (char *c = string; c && *c; c++) {
+		bool line_end = *c == '\n' || (*c == '\r' && c[1] == '\n'); /* CSV has the second */
+
+		if (iscntrl((unsigned char)*c) && !line_end && *c != '\t')
+			*c = '?';
+	}
+	return string;
+}
+
 int text_distance(const char *a, const char *b)
 {
 	enum { LIMIT = 64 };

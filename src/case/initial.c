@@ -70,6 +70,14 @@ static double points(const struct config *config, double x, double b)
 	return points_value(list, x);
 }
 
+/* A flow without ends (P3 5.1). */
+static double uniform(const struct config *config, double x, double b)
+{
+	(void)x;
+	(void)b;
+	return config->initial.height;
+}
+
 /* Thickness at x above the erodible bed, m; the index is enum shape_kind. */
 static double (*const shapes[])(const struct config *config, double x, double b) = {
 	[SHAPE_COLUMN] = column,
@@ -77,6 +85,7 @@ static double (*const shapes[])(const struct config *config, double x, double b)
 	[SHAPE_TRIANGLE] = triangle,
 	[SHAPE_LEVEL] = level,
 	[SHAPE_CAP] = cap,
+	[SHAPE_UNIFORM] = uniform,
 	[SHAPE_FILE] = points,
 };
 

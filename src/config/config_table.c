@@ -6,27 +6,32 @@
 #define AT(member) offsetof(struct config, member)
 #define GROUP(key, flags, meaning)                                                                 \
 	{                                                                                              \
-#key, FIELD_GROUP, flags, 0, NULL, NULL, NULL, NULL, meaning                               \
+#key, FIELD_GROUP, flags, 0, NULL, NULL, NULL, NULL, meaning, NULL                         \
 	}
 #define REAL(key, flags, unit, value, range, meaning)                                              \
 	{                                                                                              \
-#key, FIELD_REAL, flags, AT(key), unit, value, range, NULL, meaning                        \
+#key, FIELD_REAL, flags, AT(key), unit, value, range, NULL, meaning, NULL                  \
 	}
 #define REALS(key, flags, unit, value, range, meaning)                                             \
 	{                                                                                              \
-#key, FIELD_REALS, flags, AT(key), unit, value, range, NULL, meaning                       \
+#key, FIELD_REALS, flags, AT(key), unit, value, range, NULL, meaning, NULL                 \
 	}
 #define POINTS(key, flags, meaning)                                                                \
 	{                                                                                              \
-#key, FIELD_POINTS, flags, AT(key), "m", "[]", NULL, NULL, meaning                         \
+#key, FIELD_POINTS, flags, AT(key), "m", "[]", NULL, NULL, meaning, NULL                   \
 	}
 #define INTEGER(key, flags, value, range, meaning)                                                 \
 	{                                                                                              \
-#key, FIELD_INTEGER, flags, AT(key), NULL, value, range, NULL, meaning                     \
+#key, FIELD_INTEGER, flags, AT(key), NULL, value, range, NULL, meaning, NULL               \
 	}
 #define CHOICE(key, member, flags, value, choices, meaning)                                        \
 	{                                                                                              \
-		key, FIELD_CHOICE, flags, AT(member), NULL, value, NULL, choices, meaning                  \
+		key, FIELD_CHOICE, flags, AT(member), NULL, value, NULL, choices, meaning, NULL            \
+	}
+/* With a default for each model. */
+#define CHOICE_BY_MODEL(key, member, flags, values, choices, meaning)                              \
+	{                                                                                              \
+		key, FIELD_CHOICE, flags, AT(member), NULL, NULL, NULL, choices, meaning, values           \
 	}
 
 /* clang-format off */
@@ -35,23 +40,31 @@ static const char *const models[] = {
 static const char *const pressures[] = {
 	[PRESSURE_HYDROSTATIC] = "hydrostatic", [PRESSURE_NON_HYDROSTATIC] = "non-hydrostatic", NULL};
 static const char *const boundaries[] = {
-	[BOUNDARY_WALL] = "wall", [BOUNDARY_OUTFLOW] = "outflow", NULL};
+	[BOUNDARY_WALL] = "wall", [BOUNDARY_OUTFLOW] = "outflow", [BOUNDARY_PERIODIC] = "periodic", NULL};
 static const char *const shapes[] = {
 	[SHAPE_COLUMN] = "column", [SHAPE_HEAP] = "heap", [SHAPE_TRIANGLE] = "triangle",
-	[SHAPE_LEVEL] = "level", [SHAPE_CAP] = "cap", [SHAPE_FILE] = "file", NULL};
+	[SHAPE_LEVEL] = "level", [SHAPE_CAP] = "cap", [SHAPE_UNIFORM] = "uniform", [SHAPE_FILE] = "file", NULL};
 static const char *const coordinates[] = {
 	[COORDINATES_LOCAL] = "local", [COORDINATES_CARTESIAN] = "cartesian", NULL};
 static const char *const givens[] = {[GIVEN_SAME] = "same", [GIVEN_LOCAL] = "local",
 	[GIVEN_CARTESIAN] = "cartesian", NULL};
 static const char *const topographies[] = {[TOPOGRAPHY_PLANE] = "plane",
 	[TOPOGRAPHY_BUMP] = "bump", [TOPOGRAPHY_RANDOM] = "random", [TOPOGRAPHY_FILE] = "file", NULL};
+static const char *const frictions[] = {
+	[FRICTION_VISCOUS] = "viscous", [FRICTION_COULOMB] = "coulomb", NULL};
 static const char *const thicknesses[] = {
 	[THICKNESS_WELL_BALANCED] = "well-balanced", [THICKNESS_PLAIN] = "plain", NULL};
-static const char *const laws[] = {[LAW_MU_I] = "mu_i", [LAW_LINEAR] = "linear", NULL};
+static const char *const laws[] = {
+	[LAW_MU_I] = "mu_i", [LAW_CONSTANT] = "constant", [LAW_LINEAR] = "linear", NULL};
+static const char *const strain_rates[] = {
+	[STRAIN_RATE_FIRST_ORDER] = "first-order", [STRAIN_RATE_SECOND_ORDER] = "second-order", NULL};
+static const char *const viscosities[] = {
+	[VISCOSITY_DELTA] = "delta", [VISCOSITY_BOUNDED] = "bounded", NULL};
 static const char *const wave_speeds[] = {
 	[WAVE_SPEED_FASTEST] = "fastest", [WAVE_SPEED_MEAN] = "mean", NULL};
 static const char *const reconstructions[] = {
-	[RECONSTRUCTION_STATIC] = "static", [RECONSTRUCTION_PRINTED] = "printed", NULL};
+	[RECONSTRUCTION_STATIC] = "static", [RECONSTRUCTION_PRINTED] = "printed",
+	[RECONSTRUCTION_CREEPING] = "creeping", NULL};
 static const char *const methods[] = {[METHOD_AUTO] = "auto",
 	[METHOD_BLOCK_GAUSS_SEIDEL] = "block-gauss-seidel",
 	[METHOD_BLOCK_GAUSS_SEIDEL_FACTORED] = "block-gauss-seidel-factored",
@@ -71,6 +84,8 @@ static const char *const preserved[] = {
 	[PRESERVED_GRANULAR_MASS] = "granular-mass", [PRESERVED_HEIGHT] = "height", NULL};
 static const char *const bottoms[] = {
 	[BOTTOM_NO_SLIP] = "no-slip", [BOTTOM_FRICTION] = "friction", NULL};
+static const char *const usual_bottoms[] = {
+	[MODEL_DRY] = "friction", [MODEL_IMMERSED] = "no-slip"};
 static const char *const interfaces[] = {
 	[INTERFACE_BACKWARD] = "backward", [INTERFACE_MEAN] = "mean", NULL};
 static const char *const switches[] = {[SWITCH_ON] = "on", [SWITCH_OFF] = "off", NULL};
@@ -94,15 +109,16 @@ static const struct field fields[] = {
 		"plane as part of the bed (P2 4.1)"),
 	INTEGER(layers, FIELD_REQUIRED | LEADING, "10", "[1, 512]",
 		"layers from the bed to the surface (N)"),
-	REALS(layer_fractions, IMMERSED | FIELD_UNSORTED, "1", "[]", "(0, 1]",
-		"thickness of each layer from the bed up, as a share of the whole; []: equal"),
+	REALS(layer_fractions, FIELD_UNSORTED, "1", "[]", "[1e-6, 1]",
+		"thickness of each layer from the bed up, as a share of the whole; []: equal; others need "
+		"hydrostatic pressure"),
 	INTEGER(n_ini_guess, DRY | LEADING, "0", "[0, 511]",
 		"layers of the coarse system behind the first pressure guess; divides layers; 0: none"),
 
 	CHOICE("preserves", preserves, IMMERSED | LEADING, "granular-mass", preserved,
 		"what stays as it is while the grains dilate: granular-mass (PGM of P4), or height (PH)"),
-	CHOICE("bottom", bottom, IMMERSED, "no-slip", bottoms,
-		"shear of the lowest layer: over half of it (no-slip), or all of it (friction)"),
+	CHOICE_BY_MODEL("bottom", bottom, 0, usual_bottoms, bottoms,
+		"shear of the lowest layer: over half of it (no-slip), or all of it (friction, in the dry model Coulomb's)"),
 	CHOICE("drag", drag, IMMERSED, "on", switches,
 		"drag between grains and fluid in the momentum equations"),
 
@@ -110,7 +126,7 @@ static const struct field fields[] = {
 	REAL(domain.x_min, DRY, "m", "-0.2 m", NULL, "left end"),
 	REAL(domain.x_max, DRY, "m", "3 m", NULL, "right end, beyond x_min"),
 	INTEGER(domain.cells, DRY | LEADING, "640", "[2, 1000000]", "cells of equal width between the ends"),
-	CHOICE("domain.left", domain.left, DRY, "wall", boundaries, "what the left end is"),
+	CHOICE("domain.left", domain.left, DRY, "wall", boundaries, "what the left end is; periodic: both or neither, and hydrostatic"),
 	CHOICE("domain.right", domain.right, DRY, "outflow", boundaries, "what the right end is"),
 
 	GROUP(topography, DRY, "the bed above the reference plane"),
@@ -130,7 +146,7 @@ static const struct field fields[] = {
 	CHOICE("initial.shape", initial.shape, DRY, "column", shapes,
 		"column: one height from the left end to the front; heap: height exp(-((x - centre)/width)^2); "
 		"triangle: a horizontal surface behind a vertical front (P2 4.1); level: a surface through height at "
-		"centre; cap: that of P1 5.4; file: points"),
+		"centre; cap: that of P1 5.4; uniform: one height everywhere; file: points"),
 	REAL(initial.height, 0, "m", "0.14 m", "(0, inf)", "height of the column, or of the heap's top, above the bed layer, of a level surface or cap, or of the mixture"),
 	REAL(initial.front, DRY, "m", "0 m", NULL, "position of the gate, between x_min and x_max"),
 	REAL(initial.centre, DRY, "m", "0 m", NULL, "of the heap or cap; where a level surface has its height"),
@@ -159,8 +175,10 @@ static const struct field fields[] = {
 
 	GROUP(rheology, 0, "friction of the moving grains"),
 	CHOICE("rheology.law", rheology.law, 0, "mu_i", laws,
-		"mu_i: mu = mu_s + (mu_2 - mu_s) I/(I + i_0), I the inertial number; linear (immersed only): "
-		"mu = mu_s + k_1 I"),
+		"mu_i: mu = mu_s + (mu_2 - mu_s) I/(I + i_0), I the inertial number; constant (dry only): "
+		"mu = mu_s; linear (immersed only): mu = mu_s + k_1 I"),
+	CHOICE("rheology.strain_rate", rheology.strain_rate, DRY, "first-order", strain_rates,
+		"first-order: |d_z u|; second-order: sqrt((d_z u)^2 + 4 (d_x u)^2), P3 (55), its C-MSM"),
 	REAL(rheology.mu_s, 0, "1", "tan(25.5 deg)", "(0, inf)", "friction coefficient at rest"),
 	REAL(rheology.mu_2, 0, "1", "tan(36 deg)", "(0, inf)",
 		"friction coefficient of fast flow, at least mu_s"),
@@ -178,11 +196,15 @@ static const struct field fields[] = {
 		"phi in the stress between two layers: of the upper one (backward), or their mean, as in "
 		"P4's tables"),
 
-	GROUP(walls, IMMERSED, "side walls of a channel, P4 (42)"),
-	REAL(walls.mu_w, IMMERSED, "1", "0", "[0, inf)", "friction coefficient (mu_w); 0: no walls"),
-	REAL(walls.width, IMMERSED, "m", "0.1 m", "(0, inf)", "width of the channel (W)"),
+	GROUP(walls, 0, "side walls of a channel, P1 (36), P4 (42)"),
+	REAL(walls.mu_w, 0, "1", "0", "[0, inf)", "friction coefficient (mu_w); 0: no walls"),
+	REAL(walls.width, 0, "m", "0.1 m", "(0, inf)", "width of the channel (W)"),
 
 	GROUP(regularisation, 0, "the papers' delta: keeps friction finite where nothing moves"),
+	CHOICE("regularisation.viscosity", regularisation.viscosity, DRY, "delta", viscosities,
+		"what keeps the viscosity finite: strain_rate (delta), or largest_viscosity, as P3 (8) (bounded)"),
+	REAL(regularisation.largest_viscosity, DRY, "1", "250", "(0, inf)",
+		"with viscosity bounded: the largest, over rho sqrt(g cos(slope) h^3)"),
 	REAL(regularisation.strain_rate, 0, "1/s", "1e-5 1/s", "(0, inf)", "in the viscosity"),
 	REAL(regularisation.velocity, 0, "m/s", "1e-5 m/s", "(0, inf)", "in the bottom friction"),
 
@@ -202,7 +224,11 @@ static const struct field fields[] = {
 	GROUP(scheme, DRY, "readings of the discretisation"),
 	CHOICE("scheme.friction_reconstruction", scheme.friction_reconstruction, DRY, "static",
 		reconstructions,
-		"where friction balances the slope in P1 (21): static: only at rest; printed: also in motion"),
+		"where friction balances the slope in P1 (21): static: only at rest; printed: also in motion; "
+		"creeping: as printed below 100 delta, else static; heaps keep their shape best with it"),
+	CHOICE("scheme.friction", scheme.friction, DRY, "viscous", frictions,
+		"viscous: implicit with a regularised viscosity (P1 23-25); coulomb: slows one layer down or stops it "
+		"(P2 step 2)"),
 	CHOICE("scheme.friction_thickness", scheme.friction_thickness, DRY, "well-balanced", thicknesses,
 		"thickness that carries the friction: well-balanced: P1 (25); plain: h (P1 Table 6b)"),
 

@@ -25,6 +25,12 @@ bool field_applies(const struct field_table *table, const struct field *field, c
 	return field->flags < FIELD_ONLY(0) || field->flags & FIELD_ONLY(selected(table, target));
 }
 
+const char *field_default(
+	const struct field_table *table, const struct field *field, const void *target)
+{
+	return field->values ? field->values[selected(table, target)] : field->value;
+}
+
 int field_inapplicable(const struct field_table *table, const struct field *field,
 	const void *target, struct error *err)
 {

@@ -39,6 +39,8 @@ struct field {
 	const char *range; /* "[0 deg, 90 deg)", "(0, inf)", NULL: any; of reals each value */
 	const char *const *choices; /* names, closed by NULL */
 	const char *meaning;        /* one line */
+	/* Defaults by choice of the table's selector, where they differ; NULL: `value` is that of all. */
+	const char *const *values;
 };
 
 struct field_table {

@@ -113,16 +113,17 @@ static int convert_value(const struct field *field, const struct field_place *pl
 }
 
 /* The default of a row as the node that a file would hold. */
-static int convert_default(const struct field *field, void *member, struct error *err)
+static int convert_default(
+	const struct field_table *table, const struct field *field, void *target, struct error *err)
 {
-	struct node node = {.kind = NODE_SCALAR, .text = (char *)field->value};
+	struct node node = {.kind = NODE_SCALAR, .text = (char *)field_default(table, field, target)};
 	struct field_place place = {.node = &node};
 
 	if (field->kind == FIELD_REALS || field->kind == FIELD_POINTS) {
 		assert(!strcmp(field->value, "[]"));
 		node = (struct node){.kind = NODE_SEQUENCE};
 	}
-	return convert_value(field, &place, "", member, err);
+	return convert_value(field, &place, "", (char *)target + field->offset, err);
 }
 
 /* One row: from its place, or its default. */
@@ -130,11 +131,11 @@ static int convert_field(
 	const struct field_reader *reader, const struct field *field, void *target, struct error *err)
 {
 	const struct field_place *place = &reader->places[field - reader->table->fields];
-	void *member = (char *)target + field->offset;
 
 	if (!place->source)
-		return convert_default(field, member, err);
-	if (convert_value(field, place, reader->all.source->name, member, err) == 0)
+		return convert_default(reader->table, field, target, err);
+	if (convert_value(field, place, reader->all.source->name, (char *)target + field->offset,
+			err) == 0)
 		return 0;
 	(void)error_context(err, "%s", field->name);
 	return err->file[0] ? -1 : field_set_place(place->source, place->node, err);

@@ -12,6 +12,10 @@ enum { EXCERPT = 80 }; /* bytes of a user's text that a message shows */
 const char *field_leaf(const char *key);
 int field_depth(const char *key);
 
+/* The default of a row, by the selector's value in the struct at `target`. */
+const char *field_default(
+	const struct field_table *table, const struct field *field, const void *target);
+
 /* Give an error that is set the place of a node. Returns -1. */
 int field_set_place(const struct field_source *source, const struct node *node, struct error *err);
 

@@ -108,7 +108,7 @@ void field_print_reference(const struct field_table *table, const void *target, 
 		if (selector)
 			field_print_value(field, target, out);
 		else
-			text_add(out, field->kind == FIELD_GROUP ? "" : field->value);
+			text_add(out, field->kind == FIELD_GROUP ? "" : field_default(table, field, target));
 		text_add(out, "\n");
 	}
 }

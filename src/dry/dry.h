@@ -31,17 +31,27 @@
 
 /* Constants of a run. */
 struct dry_parameters {
-	double gc;        /* g cos(theta), or g in Cartesian coordinates, m/s2 */
-	double tan_slope; /* tan(theta), 1 */
-	double rho;       /* phi_s rho_s, kg/m3 */
-	double mu_s, mu_2, i_0;
-	double inertia; /* d_s / sqrt(phi_s): I = inertia |d_z u| / sqrt(p/rho), m */
+	double gc;              /* g cos(theta), or g in Cartesian coordinates, m/s2 */
+	double tan_slope;       /* tan(theta), 1 */
+	double rho;             /* phi_s rho_s, kg/m3 */
+	double mu_s, mu_2, i_0; /* a constant law has mu_2 = mu_s */
+	double inertia;         /* d_s / sqrt(phi_s): I = inertia |d_z u| / sqrt(p/rho), m */
 	double delta_strain, delta_velocity; /* 1/s, m/s */
-	double bed;                          /* h_i, m */
+	double largest_viscosity;            /* over rho sqrt(gc h^3), 1 */
+	double walls;                        /* 2 mu_w / W, 1/m; 0: none */
+	double bottom_gap; /* part of the lowest layer that the shear at the bottom is taken over, 1 */
+	struct friction_choice { /* all false: P1 */
+		bool no_slip;        /* the bottom holds the grains: a viscous stress, not Coulomb's */
+		bool second_order;   /* strain rate with d_x u, P3 (55) */
+		bool bounded;        /* by largest_viscosity instead of delta_strain, P3 (8) */
+		bool walls;          /* P1 (36) */
+	} friction;
+	double bed; /* h_i, m */
 	double cfl;
 	double front_threshold, static_speed; /* m, m/s */
 	bool fastest;                         /* wave speed: max over the layers, not the mean */
-	bool static_balance;                  /* dC balances only where it can */
+	int reconstruction;                   /* enum reconstruction_kind: where dC balances */
+	bool coulomb;                         /* friction slows down or stops one layer (P2) */
 	bool plain_thickness;                 /* friction is carried by h, not by P1 (25) */
 	bool non_hydrostatic;
 };
@@ -119,9 +129,27 @@ struct model_state {
 	double residual;
 	int method; /* enum method_kind that solved the full system; 0 before the first step */
 
+	double *level; /* of interface a in mean layers, [layers + 1]: a where all are equal, 1 */
 	double *x, *layer_middle, *layer_interface; /* axes of the run file */
 	double *memory;
 };
+
+/* Thickness of a layer in mean layers: exactly 1 where all are equal. */
+static inline double dry_layer(const struct model_state *s, int a)
+{
+	return s->level[a + 1] - s->level[a];
+}
+
+/* 1/l_a, and that of what the shear at the bottom is taken over. */
+static inline double dry_layers_of(const struct model_state *s, int a)
+{
+	return s->layers / dry_layer(s, a);
+}
+
+static inline double dry_bottom_layers(const struct model_state *s)
+{
+	return dry_layers_of(s, 0) / s->par.bottom_gap;
+}
 
 /* mu(I) of P1 2.1, from the shear |d_z u| in 1/s and p/rho in m2/s2. */
 KERNEL_PART double dry_mu(const struct dry_parameters *par, double shear, double p)
@@ -131,6 +159,12 @@ KERNEL_PART double dry_mu(const struct dry_parameters *par, double shear, double
 
 	return par->mu_s +
 		   (par->mu_2 - par->mu_s) * inertia / (par->i_0 * __builtin_sqrt(p) + inertia + 1e-300);
+}
+
+/* Beside a cell of thickness `h` on a bed `b`: does the bed of the other cell stand out of the grains, dry? */
+KERNEL_PART bool dry_emerges(double h, double b, double other_h, double other_b)
+{
+	return (other_h <= DRY_NO_MOMENTUM) & (h + b < other_b);
 }
 
 /* Velocities from discharges, zero where the cell is dry, with ghosts; and what their layers sum up to. */

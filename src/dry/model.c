@@ -25,17 +25,26 @@ static struct dry_parameters parameters(const struct config *config)
 		.tan_slope = (double)tanl(config->slope),
 		.rho = config->grains.solid_fraction * config->grains.density,
 		.mu_s = config->rheology.mu_s,
-		.mu_2 = config->rheology.mu_2,
+		.mu_2 =
+			config->rheology.law == LAW_CONSTANT ? config->rheology.mu_s : config->rheology.mu_2,
 		.i_0 = config->rheology.i_0,
 		.inertia = config->grains.diameter / sqrt(config->grains.solid_fraction),
 		.delta_strain = config->regularisation.strain_rate,
 		.delta_velocity = config->regularisation.velocity,
+		.largest_viscosity = config->regularisation.largest_viscosity,
+		.walls = 2 * config->walls.mu_w / config->walls.width,
+		.bottom_gap = config->bottom == BOTTOM_NO_SLIP ? 0.5 : 1,
+		.friction = {.no_slip = config->bottom == BOTTOM_NO_SLIP,
+			.second_order = config->rheology.strain_rate == STRAIN_RATE_SECOND_ORDER,
+			.bounded = config->regularisation.viscosity == VISCOSITY_BOUNDED,
+			.walls = config->walls.mu_w > 0},
 		.bed = config->erodible_bed_thickness,
 		.cfl = config->time.cfl,
 		.front_threshold = config->output.front_threshold,
 		.static_speed = config->output.static_speed,
 		.fastest = config->time.wave_speed == WAVE_SPEED_FASTEST,
-		.static_balance = config->scheme.friction_reconstruction == RECONSTRUCTION_STATIC,
+		.reconstruction = config->scheme.friction_reconstruction,
+		.coulomb = config->scheme.friction == FRICTION_COULOMB,
 		.plain_thickness = config->scheme.friction_thickness == THICKNESS_PLAIN,
 		.non_hydrostatic = config->pressure == PRESSURE_NON_HYDROSTATIC,
 	};
@@ -74,12 +83,13 @@ static size_t layout(struct model_state *s, bool cartesian, double *memory)
 	for (size_t i = 0; i < sizeof s->face / sizeof *s->face; i++)
 		s->face[i] = place(&next, faces);
 	s->work = place(&next, n * stride);
+	s->level = place(&next, n + 1);
 	s->x = place(&next, stride);
 	s->layer_middle = place(&next, n);
 	s->layer_interface = place(&next, n + 1);
 	s->coarse.u = coarse ? place(&next, coarse * stride) : NULL;
 	s->coarse.w = coarse ? place(&next, coarse * stride) : NULL;
-	return (7 + cartesian + 5 * n + 2 * coarse) * stride + (6 + 2 * n) * faces + 2 * n + 3;
+	return (7 + cartesian + 5 * n + 2 * coarse) * stride + (6 + 2 * n) * faces + 3 * n + 4;
 }
 
 static int projection_init(struct model_state *s, const struct config *config,
@@ -110,6 +120,22 @@ static void destroy(struct model_state *s)
 	free(s);
 }
 
+/* The interfaces, from the fractions; exact where these are equal. */
+static void fill_levels(struct model_state *s, const struct real_list *fractions)
+{
+	double sum = 0, below = 0;
+
+	for (int a = 0; a < fractions->count; a++)
+		sum += fractions->values[a];
+	for (int a = 0; a <= s->layers; a++) {
+		s->level[a] = fractions->count && a < s->layers ? below / sum * s->layers : a;
+		below += a < fractions->count ? fractions->values[a] : 0;
+		s->layer_interface[a] = s->level[a] / s->layers;
+	}
+	for (int a = 0; a < s->layers; a++)
+		s->layer_middle[a] = 0.5 * (s->level[a] + s->level[a + 1]) / s->layers;
+}
+
 /* In Cartesian coordinates the plane is a part of the bed (P2 4.1); it goes on beyond the ends. */
 static void add_plane(struct model_state *s, const struct config *config)
 {
@@ -130,6 +156,7 @@ static int fill(struct model_state *s, const struct config *config, struct error
 {
 	double mass = 0;
 
+	fill_levels(s, &config->layer_fractions);
 	TRY(initial_fill(config, &s->grid, s->b, s->h, err));
 	if (s->bed != s->b)
 		add_plane(s, config);
@@ -138,10 +165,6 @@ static int fill(struct model_state *s, const struct config *config, struct error
 		mass += s->h[i];
 	}
 	s->mass[0] = s->par.rho * mass * s->grid.dx;
-	for (int a = 0; a < s->layers; a++)
-		s->layer_middle[a] = (a + 0.5) / s->layers;
-	for (int a = 0; a <= s->layers; a++)
-		s->layer_interface[a] = (double)a / s->layers;
 	if (config->gate.speed != 0)
 		open_gate(s, config);
 	return 0;
@@ -186,11 +209,12 @@ static int create(const struct config *config, struct model_state **out, struct 
 	return 0;
 }
 
-/* Velocities of a layer, and what they add to the sums over the layers; w is 0 and stays so where the
- * pressure is hydrostatic. */
-KERNEL_PART void layer_velocities(int cells, bool hydrostatic, const double *restrict inverse,
-	const double *restrict U, const double *restrict W, double *restrict u, double *restrict w,
-	double *restrict sum, double *restrict fastest, double *restrict squares)
+/* Velocities of a layer of thickness `layer` (in mean ones), and what they add to the sums over the
+ * layers; w is 0 and stays so where the pressure is hydrostatic. */
+KERNEL_PART void layer_velocities(int cells, bool hydrostatic, double layer,
+	const double *restrict inverse, const double *restrict U, const double *restrict W,
+	double *restrict u, double *restrict w, double *restrict sum, double *restrict fastest,
+	double *restrict squares)
 {
 	for (int k = 0; k < cells; k++) {
 		double along = U[k] * inverse[k], normal = hydrostatic ? 0 : W[k] * inverse[k];
@@ -199,9 +223,9 @@ KERNEL_PART void layer_velocities(int cells, bool hydrostatic, const double *res
 		u[k] = along;
 		if (!hydrostatic)
 			w[k] = normal;
-		sum[k] += along;
+		sum[k] += layer * along;
 		fastest[k] = speed > fastest[k] ? speed : fastest[k];
-		squares[k] += along * along + normal * normal;
+		squares[k] += layer * (along * along + normal * normal);
 	}
 }
 
@@ -222,12 +246,14 @@ KERNEL static void velocities(struct model_state *s, struct chunk chunk, double 
 	for (int k = 0; k < cells; k++)
 		inverse[k] = h[k] > DRY_NO_MOMENTUM ? 1 / h[k] : 0;
 	for (int a = 0; a < s->layers; a++, row += s->grid.stride) {
+		double layer = dry_layer(s, a);
+
 		if (s->par.non_hydrostatic)
-			layer_velocities(cells, false, inverse, s->U + row, s->W + row, s->u + row, s->w + row,
-				mean, fastest, squares);
+			layer_velocities(cells, false, layer, inverse, s->U + row, s->W + row, s->u + row,
+				s->w + row, mean, fastest, squares);
 		else
-			layer_velocities(cells, true, inverse, s->U + row, s->W + row, s->u + row, s->w + row,
-				mean, fastest, squares);
+			layer_velocities(cells, true, layer, inverse, s->U + row, s->W + row, s->u + row,
+				s->w + row, mean, fastest, squares);
 	}
 	for (int k = 0; k < cells; k++)
 		mean[k] /= s->layers;
@@ -368,7 +394,7 @@ static size_t arrays(struct model_state *s, struct array *list)
 
 const struct model dry_model = {
 	.name = "dry",
-	.numerics_version = 2,
+	.numerics_version = 3,
 	.remedy = "a lower time.cfl may carry it",
 	.series = dry_series,
 	.series_count = DRY_SERIES_COUNT,

@@ -188,7 +188,8 @@ static double static_height(const struct model_state *s, int i)
 	double limit = s->par.static_speed, slower = 0, slower_at = 0, dz = s->h[i] / s->layers;
 
 	for (int a = 0; a < s->layers; a++) {
-		double speed = fabs(s->u[(size_t)a * s->grid.stride + (size_t)i]), at = (a + 0.5) * dz;
+		double speed = fabs(s->u[(size_t)a * s->grid.stride + (size_t)i]),
+			   at = 0.5 * (s->level[a] + s->level[a + 1]) * dz;
 
 		if (speed >= limit)
 			return a == 0 ? 0 : slower_at + (at - slower_at) * (limit - slower) / (speed - slower);
@@ -202,7 +203,7 @@ static double static_height(const struct model_state *s, int i)
 static void diagnose_w(const struct model_state *s, double *values)
 {
 	int cells = s->grid.cells;
-	double n = s->layers, width = 2 * s->grid.dx;
+	double width = 2 * s->grid.dx;
 	const double *h = s->h, *b = s->bed;
 
 	for (int i = 1; i <= cells; i++) {
@@ -210,8 +211,10 @@ static void diagnose_w(const struct model_state *s, double *values)
 
 		for (int a = 0; a < s->layers; a++) {
 			const double *u = s->u + (size_t)a * s->grid.stride;
-			double flux = (h[i + 1] * u[i + 1] - h[i - 1] * u[i - 1]) / (n * width);
-			double middle = (b[i + 1] - b[i - 1] + (a + 0.5) / n * (h[i + 1] - h[i - 1])) / width;
+			double flux =
+				(h[i + 1] * u[i + 1] - h[i - 1] * u[i - 1]) / (dry_layers_of(s, a) * width);
+			double middle =
+				(b[i + 1] - b[i - 1] + s->layer_middle[a] * (h[i + 1] - h[i - 1])) / width;
 
 			values[(size_t)a * (size_t)cells + (size_t)(i - 1)] =
 				u[i] * middle - below - 0.5 * flux;
@@ -230,7 +233,8 @@ static void total_pressure(const struct model_state *s, double *values)
 			double fluctuation = a < s->layers ? 0.5 * (q[-1] + q[0]) : 0;
 
 			values[(size_t)a * cells + i - 1] =
-				s->par.rho * (s->par.gc * s->h[i] * (s->layers - a) / s->layers + fluctuation);
+				s->par.rho *
+				(s->par.gc * s->h[i] * (s->layers - s->level[a]) / s->layers + fluctuation);
 		}
 }
 

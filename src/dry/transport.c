@@ -20,6 +20,7 @@ struct window {
 	double left[ROW], right[ROW];         /* h~- and h~+, m */
 	double mass_flux[ROW];                /* m2/s */
 	double share[ROW];                    /* part of the flux that its donor can pay, 1 */
+	double ends[2];                       /* the same of the ghosts where they are cells, else 1 */
 };
 
 KERNEL_PART double positive(double x)
@@ -39,17 +40,21 @@ KERNEL_PART double larger(double a, double b)
 
 /* dC: the part of the surface slope that friction holds (P1, text after 21). `h`, `u`: means of the
  * thickness and of |u_1| at the face, `q` there at the bottom. */
-KERNEL_PART double held_jump(const struct dry_parameters *par, bool static_balance, double h,
+KERNEL_PART double held_jump(const struct dry_parameters *par, int reconstruction, double h,
 	double u, double q, double eta_jump, double u_roe, double dt, double dx, double n)
 {
 	double p = positive(par->gc * h + q);
 	double mu = dry_mu(par, h > DRY_NO_MOMENTUM ? u * n / h : 0, p);
 	double force = u_roe / dt - par->gc * eta_jump / dx, most = par->gc * mu;
+	double still = fabs(eta_jump) <= REST_MARGIN * mu * dx ? -eta_jump : 0;
 
-	if (static_balance)
-		return fabs(eta_jump) <= REST_MARGIN * mu * dx ? -eta_jump : 0;
+	if (reconstruction == RECONSTRUCTION_STATIC)
+		return still;
 	force = force > most ? most : force < -most ? -most : force;
-	return force * dx / par->gc;
+	force = force * dx / par->gc;
+	if (reconstruction == RECONSTRUCTION_PRINTED)
+		return force;
+	return fabs(u_roe) < 100 * par->delta_velocity ? force : still;
 }
 
 /* Difference of the bed and the reference plane over every face; a wall mirrors the plane. */
@@ -88,7 +93,7 @@ KERNEL_PART void hll_coefficients(const struct model_state *s, struct window *r,
 }
 
 /* Hydrostatic reconstruction, with the part of the slope that friction holds and without (P1 20, 21). */
-KERNEL_PART void reconstruct(const struct model_state *s, bool static_balance, double dt,
+KERNEL_PART void reconstruct(const struct model_state *s, int reconstruction, double dt,
 	const double *restrict plane, const double *restrict u_roe, struct window *r)
 {
 	const struct dry_parameters par = s->par;
@@ -96,11 +101,11 @@ KERNEL_PART void reconstruct(const struct model_state *s, bool static_balance, d
 	const double *restrict b_i = s->b + r->first, *restrict b_j = b_i + 1;
 	const double *restrict u_i = s->u + r->first, *restrict u_j = u_i + 1;
 	const double *restrict q = s->q + r->first;
-	double dx = s->grid.dx, n = s->layers;
+	double dx = s->grid.dx, n = dry_bottom_layers(s);
 
 	for (int f = 0; f < r->faces; f++) {
 		double db = b_j[f] - b_i[f], dz = db + plane[f], hbar = 0.5 * (h_i[f] + h_j[f]);
-		double held = dz + held_jump(&par, static_balance, hbar, 0.5 * fabs(u_i[f] + u_j[f]), q[f],
+		double held = dz + held_jump(&par, reconstruction, hbar, 0.5 * fabs(u_i[f] + u_j[f]), q[f],
 							   dz + h_j[f] - h_i[f], u_roe[f], dt, dx, n);
 		double left = positive(h_i[f] - positive(held)), right = positive(h_j[f] - positive(-held));
 
@@ -126,37 +131,38 @@ KERNEL_PART void mass_fluxes(const struct model_state *s, struct window *r)
 	}
 }
 
-/* The bed stands out of the grains: no grains flow over its dry step (P1 Remark 2). */
-KERNEL_PART bool emerges(double h, double b, double dry_h, double dry_b)
+/* The part of what flows out of a cell that it holds. */
+KERNEL_PART double payable(double h, double flux_left, double flux_right, double dt, double dx)
 {
-	return (dry_h <= DRY_NO_MOMENTUM) & (h + b < dry_b);
+	double out = (positive(flux_right) + positive(-flux_left)) * dt / dx;
+
+	return out > h ? h * (1 - 1e-12) / out : 1;
 }
 
-/* No cell gives away more than it holds; what it gives is cut to the share that it can pay. */
+/* No cell gives away more than it holds; what it gives is cut to the share that it can pay. Nothing flows
+ * over a dry step of the bed that stands out of the grains (P1 Remark 2). */
 KERNEL_PART void limit_outflow(const struct model_state *s, double dt, struct window *r)
 {
 	const double *restrict h = s->h + r->first, *restrict flux = r->mass_flux;
 	const double *restrict b = s->b + r->first;
 	double pays[ROW];
 
-	pays[0] = pays[r->faces] = 1; /* ghosts; or not looked at */
-	for (int j = 1; j < r->faces; j++) {
-		double out = (positive(flux[j]) + positive(-flux[j - 1])) * dt / s->grid.dx;
-
-		pays[j] = out > h[j] ? h[j] * (1 - 1e-12) / out : 1;
-	}
+	pays[0] = r->ends[0]; /* of ghosts; or not looked at */
+	pays[r->faces] = r->ends[1];
+	for (int j = 1; j < r->faces; j++)
+		pays[j] = payable(h[j], flux[j - 1], flux[j], dt, s->grid.dx);
 	for (int f = 0; f < r->faces; f++) {
 		double left = pays[f], right = pays[f + 1], share = flux[f] > 0 ? left : right;
-		bool blocked =
-			emerges(h[f], b[f], h[f + 1], b[f + 1]) | emerges(h[f + 1], b[f + 1], h[f], b[f]);
+		bool blocked = dry_emerges(h[f], b[f], h[f + 1], b[f + 1]) |
+					   dry_emerges(h[f + 1], b[f + 1], h[f], b[f]);
 
 		r->share[f] = blocked ? 0 : share;
 	}
 }
 
 /* One component (`v` is u_a or w_a) of one layer at the faces of a chunk: the numerical flux, and
- * (B + S)/2. `top`, `bottom` are the rows above and below (their own row at the surface and the bed,
- * where the exchange is zero anyway), `above`, `below` the jumps of G there. */
+ * (B + S)/2. `n` is 1/l_a; `top`, `bottom` are the rows above and below (their own row at the surface
+ * and the bed, where the exchange is zero anyway), `above`, `below` the jumps of G there. */
 KERNEL_PART void layer_fluxes(const struct window *r, int at, int faces, double n, bool along,
 	const double *restrict h, const double *restrict u, const double *restrict v,
 	const double *restrict bottom, const double *restrict top, const double *restrict below,
@@ -214,19 +220,19 @@ KERNEL_PART void advance_layers(
 		size_t row = (size_t)a * stride + left;
 		size_t up = a < top ? row + stride : row, down = a > 0 ? row - stride : row;
 		const double *u = s->u + row, *w = s->w + row;
-		double *below = jumps[a % 2], *above = jumps[(a + 1) % 2];
+		double *below = jumps[a % 2], *above = jumps[(a + 1) % 2], n = dry_layers_of(s, a);
 
 		if (a < top)
-			add_jump(faces, s->layers, h, u, s->mean + left, below, above);
+			add_jump(faces, n, h, u, s->mean + left, below, above);
 		else
 			memset(above, 0, sizeof jumps[0]); /* exactly 0 at the surface */
-		layer_fluxes(r, at, faces, s->layers, true, h, u, u, s->u + down, s->u + up, below, above,
-			flux, half);
+		layer_fluxes(
+			r, at, faces, n, true, h, u, u, s->u + down, s->u + up, below, above, flux, half);
 		advance(cells, ratio, flux, half, s->U + row + 1);
 		if (!s->par.non_hydrostatic)
 			continue;
-		layer_fluxes(r, at, faces, s->layers, false, h, u, w, s->w + down, s->w + up, below, above,
-			flux, half);
+		layer_fluxes(
+			r, at, faces, n, false, h, u, w, s->w + down, s->w + up, below, above, flux, half);
 		advance(cells, ratio, flux, half, s->W + row + 1);
 		force_add_layer(s, &force, chunk, a, s->q, dt);
 	}
@@ -249,21 +255,43 @@ KERNEL_PART void advance_thickness(
 		s->end_flux[1] = flux[cells] * share[cells];
 }
 
+/* What the layers share. */
+KERNEL_PART void fill_window(const struct model_state *s, double dt, struct window *r)
+{
+	double plane[ROW] = {0}, u_roe[ROW];
+
+	plane_jumps(s, r, plane);
+	hll_coefficients(s, r, u_roe);
+	if (s->par.reconstruction == RECONSTRUCTION_STATIC)
+		reconstruct(s, RECONSTRUCTION_STATIC, dt, plane, u_roe, r);
+	else if (s->par.reconstruction == RECONSTRUCTION_PRINTED)
+		reconstruct(s, RECONSTRUCTION_PRINTED, dt, plane, u_roe, r);
+	else
+		reconstruct(s, RECONSTRUCTION_CREEPING, dt, plane, u_roe, r);
+	mass_fluxes(s, r);
+}
+
+/* The part of its fluxes that a cell at an end can pay: for the ghost at the other, periodic one. */
+KERNEL static double end_pays(const struct model_state *s, int cell, double dt)
+{
+	struct window r;
+
+	r.first = cell - 1;
+	r.faces = 2;
+	fill_window(s, dt, &r);
+	return payable(s->h[cell], r.mass_flux[0], r.mass_flux[1], dt, s->grid.dx);
+}
+
 KERNEL static void transport(struct model_state *s, struct chunk chunk, double dt)
 {
 	int last = chunk.last < s->grid.cells ? chunk.last + 2 : chunk.last + 1;
-	double plane[ROW] = {0}, u_roe[ROW];
 	struct window r;
 
 	r.first = chunk.first > 1 ? chunk.first - 2 : 0;
 	r.faces = last - r.first;
-	plane_jumps(s, &r, plane);
-	hll_coefficients(s, &r, u_roe);
-	if (s->par.static_balance)
-		reconstruct(s, true, dt, plane, u_roe, &r);
-	else
-		reconstruct(s, false, dt, plane, u_roe, &r);
-	mass_fluxes(s, &r);
+	r.ends[0] = s->grid.periodic && r.first == 0 ? end_pays(s, s->grid.cells, dt) : 1;
+	r.ends[1] = s->grid.periodic && last > s->grid.cells ? end_pays(s, 1, dt) : 1;
+	fill_window(s, dt, &r);
 	limit_outflow(s, dt, &r);
 	advance_layers(s, &r, chunk, dt);
 	advance_thickness(s, &r, chunk, dt);

@@ -1,17 +1,17 @@
 /* The choice among the methods, step by step, by what the last steps cost: conjugate gradients as long
- * as they take few iterations, the direct method where they would take too many (near the face of a dam
- * at the start). Cost is counted in iterations and sizes, never by a clock, so that the choice is the
+ * as they take few iterations, the direct method where they would take too many (on beds rough all over, and
+ * with few layers). Cost is counted in iterations and sizes, never by a clock, so that the choice is the
  * same on every machine, and what one step leaves for the next is part of the exact state. */
 #include <stdlib.h>
 
-#include "linear/fast_diagonal.h"
+#include "linear/costs.h"
+#include "linear/elimination.h"
 #include "linear/pressure_solver.h"
 
 /* The direct method keeps a dense matrix per column: not beyond this much memory, and not for more layers
- * than it has rows in registers for. (On fine grids it would still save up to 60 % of a step near the
- * face of a dam with 48 to 64 layers, and lose as much with 64 on coarse ones.) */
+ * than it has rows in registers for, where it would seldom be the cheaper one. */
 #define DIRECT_BYTES (256.0 * 1024 * 1024)
-#define DIRECT_LAYERS 40
+#define DIRECT_LAYERS (ELIMINATION_BLOCKS_KNOWN * LANES)
 
 enum {
 	SHORTEST_HOLD = 4,
@@ -27,17 +27,13 @@ struct memory {
 	double kept[KEPT];
 };
 
-/* Iterations of conjugate gradients that take the time of one direct solution, in nanoseconds per unknown
- * as `make bench` shows them: an iteration goes over padded columns of layers and of modes and
- * multiplies with half a square of modes; the direct method inverts a square of layers. */
+/* Iterations of conjugate gradients that take the time of one direct solution, which goes over the
+ * columns some more times. */
 static int affordable(int layers)
 {
-	int column = (layers / LANES + 1) * LANES;
-	int modes = 2 * (((layers + 1) / 2 + MODES - 1) / MODES) * MODES;
-	double n = layers, iteration = (0.53 * column + 0.55 * modes) / n + 0.03 * n;
-	double direct = 11.5 + 0.3 * n + 0.025 * n * n;
+	double direct = costs_elimination_factor(layers) + costs_elimination_solve(layers) + 4;
 
-	return (int)(direct / iteration);
+	return (int)((direct - costs_gradients_start(layers)) / costs_gradients_iteration(layers));
 }
 
 static void destroy(void *memory)
@@ -54,7 +50,7 @@ static void destroy(void *memory)
 static int create(
 	int layers, int faces, const struct pressure_options *options, void **out, struct error *err)
 {
-	struct columns columns = columns_make(layers, faces);
+	struct column_layout columns = columns_make(layers, faces);
 	struct memory *m = calloc(1, sizeof *m);
 
 	if (!m)

@@ -2,41 +2,41 @@
  * iterates of block_gauss_seidel.c up to rounding, without its divisions. */
 #include <stdlib.h>
 
+#include "linear/arrays.h"
 #include "linear/sweeps.h"
 
 /* Of every row, [layers][faces] like the bands: 1/pivot, lower/pivot and upper/pivot. */
 struct factors {
 	double *inverse, *multiplier, *ratio;
 	double *right; /* [faces], right side of a layer, then its solution */
+	void *block;
 };
-
-static int create(
-	int layers, int faces, const struct pressure_options *options, void **out, struct error *err)
-{
-	struct factors *factors = malloc(sizeof *factors);
-	size_t count = (size_t)layers * (size_t)faces;
-	size_t bytes = (3 * count + (size_t)faces) * sizeof(double);
-
-	(void)options;
-	if (!factors)
-		return error_memory(err, sizeof *factors);
-	factors->inverse = malloc(bytes);
-	if (!factors->inverse) {
-		free(factors);
-		return error_memory(err, bytes);
-	}
-	factors->multiplier = factors->inverse + count;
-	factors->ratio = factors->multiplier + count;
-	factors->right = factors->ratio + count;
-	*out = factors;
-	return 0;
-}
 
 static void destroy(void *factors)
 {
 	if (factors)
-		free(((struct factors *)factors)->inverse);
+		free(((struct factors *)factors)->block);
 	free(factors);
+}
+
+static int create(
+	int layers, int faces, const struct pressure_options *options, void **out, struct error *err)
+{
+	struct factors *factors = calloc(1, sizeof *factors);
+	size_t count = (size_t)layers * (size_t)faces;
+
+	(void)options;
+	if (!factors)
+		return error_memory(err, sizeof *factors);
+	if (arrays_allocate(
+			(struct array[]){ARRAY(factors->inverse, count), ARRAY(factors->multiplier, count),
+				ARRAY(factors->ratio, count), ARRAY(factors->right, (size_t)faces), {0}},
+			&factors->block, err) != 0) {
+		destroy(factors);
+		return -1;
+	}
+	*out = factors;
+	return 0;
 }
 
 static void factor_layer(const struct pressure_system *system, int a, const struct factors *factors)

@@ -2,11 +2,11 @@
 
 #include <string.h>
 
-struct columns columns_make(int layers, int faces)
+struct column_layout columns_make(int layers, int faces)
 {
 	int blocks = layers / LANES + 1; /* room for at least one zero */
 
-	return (struct columns){.layers = layers,
+	return (struct column_layout){.layers = layers,
 		.faces = faces,
 		.blocks = blocks,
 		.groups = (faces + LANES - 1) / LANES,
@@ -14,15 +14,15 @@ struct columns columns_make(int layers, int faces)
 }
 
 /* The columns of a group that exist. */
-static int group_width(const struct columns *columns, int group)
+static int group_width(const struct column_layout *columns, int group)
 {
 	int left = columns->faces - group * LANES;
 
 	return left < LANES ? left : LANES;
 }
 
-KERNEL void columns_from_rows(const struct columns *columns, const double *rows, size_t row_stride,
-	double *out, int first, int last)
+KERNEL void columns_from_rows(const struct column_layout *columns, const double *rows,
+	size_t row_stride, double *out, int first, int last)
 {
 	for (int g = first; g < last; g++) {
 		int width = group_width(columns, g);
@@ -36,7 +36,7 @@ KERNEL void columns_from_rows(const struct columns *columns, const double *rows,
 	}
 }
 
-KERNEL void columns_to_rows(const struct columns *columns, const double *from, double *rows,
+KERNEL void columns_to_rows(const struct column_layout *columns, const double *from, double *rows,
 	size_t row_stride, int first, int last)
 {
 	for (int g = first; g < last; g++) {
@@ -93,7 +93,7 @@ KERNEL_PART v8 gather(const struct terms *left, const struct terms *right, const
 	return sum;
 }
 
-KERNEL_PART void apply(const struct columns *columns, const struct pressure_system *system,
+KERNEL_PART void apply(const struct column_layout *columns, const struct pressure_system *system,
 	const double *x, double *out, double *sums, int first, int last, int blocks)
 {
 	const struct pressure_cells *cells = &system->cells;
@@ -130,7 +130,7 @@ KERNEL_PART void apply(const struct columns *columns, const struct pressure_syst
 }
 
 /* The usual numbers of blocks are known when compiled, so that a column stays in registers. */
-KERNEL void columns_apply(const struct columns *columns, const struct pressure_system *system,
+KERNEL void columns_apply(const struct column_layout *columns, const struct pressure_system *system,
 	const double *x, double *out, double *sums, int first, int last)
 {
 	switch (columns->blocks) {

@@ -12,7 +12,7 @@
 #include "base/kernel.h"
 #include "linear/pressure_system.h"
 
-struct columns {
+struct column_layout {
 	int layers, faces;
 	int blocks;    /* vectors in a column */
 	int groups;    /* of LANES columns */
@@ -21,23 +21,23 @@ struct columns {
 
 enum { COLUMNS_BLOCKS_MAX = 512 / LANES + 1 }; /* of the most layers that a config takes */
 
-struct columns columns_make(int layers, int faces);
+struct column_layout columns_make(int layers, int faces);
 
 /* How many doubles an array of columns takes. */
-static inline size_t columns_count(const struct columns *columns)
+static inline size_t columns_count(const struct column_layout *columns)
 {
 	return ((size_t)columns->groups * LANES + 1) * columns->stride + LANES;
 }
 
 /* Between rows of layers ([layers], `row_stride` apart) and columns, in groups [first, last). */
-void columns_from_rows(const struct columns *columns, const double *rows, size_t row_stride,
+void columns_from_rows(const struct column_layout *columns, const double *rows, size_t row_stride,
 	double *out, int first, int last);
-void columns_to_rows(const struct columns *columns, const double *from, double *rows,
+void columns_to_rows(const struct column_layout *columns, const double *from, double *rows,
 	size_t row_stride, int first, int last);
 
 /* out = A x for a symmetric system in groups [first, last), with the sum of x out of each group in
  * `sums` [groups]. */
-void columns_apply(const struct columns *columns, const struct pressure_system *system,
+void columns_apply(const struct column_layout *columns, const struct pressure_system *system,
 	const double *x, double *out, double *sums, int first, int last);
 
 #endif

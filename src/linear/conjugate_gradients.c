@@ -1,23 +1,27 @@
 /* Conjugate gradients on the symmetric operator, preconditioned by the operator without its xi terms,
- * which fast diagonalisation solves exactly. An iteration is three passes over the columns: new residual
- * and its modes; tridiagonal systems of the modes; new direction and its product with the matrix. */
+ * which fast diagonalisation solves exactly; where these terms are large, strips of columns are eliminated.
+ * An iteration is three passes over the columns: new residual and its modes; tridiagonal systems of
+ * the modes; new direction and its product with the matrix. */
 #include <math.h>
 #include <stdlib.h>
 
+#include "linear/arrays.h"
 #include "linear/fast_diagonal.h"
 #include "linear/pressure_solver.h"
+#include "linear/strips.h"
 
 enum { BATCH = 4 }; /* groups whose columns are in hand at once */
 
 struct memory {
 	struct fast_diagonal fast;
-	struct columns columns;
+	struct strips strips;
+	struct column_layout columns;
 	int threads;
 	double *x, *residual, *direction; /* columns, in units of |b| */
 	double *product; /* columns: A times the direction; in between the preconditioned residual */
 	double *sums;    /* [groups or blocks, whichever is more] */
 	float *modes;    /* columns of modes */
-	double *block;
+	void *block;
 	double scale;       /* |b| */
 	double alpha, beta; /* of the pass at hand */
 };
@@ -29,23 +33,6 @@ struct part {
 	int first, last;
 };
 
-static size_t layout(struct memory *m, double *block)
-{
-	size_t all = columns_count(&m->columns);
-	int groups = m->columns.groups, blocks = fast_diagonal_blocks(&m->fast);
-	size_t sums = (size_t)(groups > blocks ? groups : blocks);
-	struct {
-		double **part;
-		size_t count;
-	} const parts[] = {{&m->x, all}, {&m->residual, all}, {&m->direction, all}, {&m->product, all},
-		{&m->sums, sums}};
-	size_t at = 0;
-
-	for (size_t i = 0; i < sizeof parts / sizeof *parts; at += parts[i++].count)
-		*parts[i].part = block ? block + at : NULL;
-	return at;
-}
-
 static void destroy(void *memory)
 {
 	struct memory *m = memory;
@@ -53,33 +40,39 @@ static void destroy(void *memory)
 	if (!m)
 		return;
 	fast_diagonal_clean(&m->fast);
+	strips_clean(&m->strips);
 	free(m->block);
-	free(m->modes);
 	free(m);
+}
+
+static int allocate(struct memory *m, struct error *err)
+{
+	int layers = m->columns.layers, faces = m->columns.faces, groups = m->columns.groups, blocks;
+	size_t all = columns_count(&m->columns);
+
+	TRY(fast_diagonal_init(&m->fast, layers, faces, err));
+	TRY(strips_init(&m->strips, layers, faces, err));
+	blocks = fast_diagonal_blocks(&m->fast);
+	return arrays_allocate(
+		(struct array[]){ARRAY(m->x, all), ARRAY(m->residual, all), ARRAY(m->direction, all),
+			ARRAY(m->product, all), ARRAY(m->sums, (size_t)(groups > blocks ? groups : blocks)),
+			ARRAY(m->modes, fast_diagonal_count(&m->fast)), {0}},
+		&m->block, err);
 }
 
 static int create(
 	int layers, int faces, const struct pressure_options *options, void **out, struct error *err)
 {
 	struct memory *m = calloc(1, sizeof *m);
-	size_t count;
 
 	if (!m)
 		return error_memory(err, sizeof *m);
 	m->columns = columns_make(layers, faces);
 	m->threads = options->threads;
-	if (fast_diagonal_init(&m->fast, layers, faces, err) != 0) {
+	if (allocate(m, err) != 0) {
 		destroy(m);
 		return -1;
 	}
-	count = layout(m, NULL);
-	m->block = calloc(count, sizeof *m->block);
-	m->modes = calloc(fast_diagonal_count(&m->fast), sizeof *m->modes);
-	if (!m->block || !m->modes) {
-		destroy(m);
-		return error_memory(err, count * sizeof *m->block);
-	}
-	(void)layout(m, m->block);
 	*out = m;
 	return 0;
 }
@@ -258,6 +251,25 @@ static void rescale(struct memory *m, double factor)
 	}
 }
 
+/* A first direction that takes the residual out of the strips; its step is 1. */
+static void eliminate(struct memory *m, const struct pressure_system *system)
+{
+	size_t all = columns_count(&m->columns);
+
+	for (size_t i = 0; i < all; i++)
+		m->direction[i] = m->product[i] = 0;
+	for (int i = 0; i < m->strips.count; i++) {
+		const struct strip *strip = &m->strips.strips[i];
+
+		for (size_t k = group_at(m, strip->first); k < group_at(m, strip->last); k++) {
+			m->product[k] = -m->residual[k];
+			m->residual[k] = 0;
+		}
+	}
+	strips_correct(&m->strips, system, m->direction, m->product, m->sums);
+	m->alpha = 1;
+}
+
 /* Residual and direction for the start at hand. */
 static void begin(struct memory *m, const struct pressure_system *system)
 {
@@ -268,9 +280,8 @@ static void begin(struct memory *m, const struct pressure_system *system)
 	pass(m, system, fast_diagonal_blocks(&m->fast), factor_modes);
 	pass(m, system, groups, take_right_side);
 	m->scale = sqrt(total(m->sums, groups));
-	m->alpha = 0;
 	for (size_t i = 0; i < all; i++)
-		m->x[i] = m->direction[i] = m->product[i] = 0;
+		m->x[i] = 0;
 	if (!starts_at_zero(system)) {
 		pass(m, system, groups, take_start);
 		pass(m, system, groups, multiply_start);
@@ -279,6 +290,8 @@ static void begin(struct memory *m, const struct pressure_system *system)
 	}
 	if (m->scale > 0)
 		rescale(m, 1 / m->scale);
+	strips_factor(&m->strips, system);
+	eliminate(m, system);
 }
 
 /* alpha p in the norm of the rule. */
@@ -327,6 +340,7 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 		last = energy;
 		pass(m, system, groups, turn_and_multiply);
 		pass(m, system, groups, multiply_edges);
+		strips_correct(&m->strips, system, m->direction, m->product, m->sums);
 		m->alpha = energy / total(m->sums, groups);
 		stop = rule->criterion == CRITERION_INCREMENT &&
 			   increment(m, system, rule->norm) < rule->tolerance;

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "linear/arrays.h"
+
 size_t fast_diagonal_count(const struct fast_diagonal *fast)
 {
 	return ((size_t)fast->columns.groups * LANES + 1) * 2 * fast->half;
@@ -11,32 +13,6 @@ size_t fast_diagonal_count(const struct fast_diagonal *fast)
 int fast_diagonal_blocks(const struct fast_diagonal *fast)
 {
 	return (int)(2 * fast->half / MODES);
-}
-
-static size_t layout(struct fast_diagonal *fast, double *memory)
-{
-	size_t column = 2 * fast->half, row = (size_t)fast->columns.faces + 1, at = 0;
-	double **const columns[] = {&fast->of_stretch, &fast->of_mean, &fast->kept};
-
-	for (size_t i = 0; i < sizeof columns / sizeof *columns; i++, at += column)
-		*columns[i] = memory ? memory + at : NULL;
-	for (size_t i = 0; i < sizeof fast->bands / sizeof *fast->bands; i++, at += row)
-		fast->bands[i] = memory ? memory + at : NULL;
-	return at;
-}
-
-static size_t layout_single(struct fast_diagonal *fast, float *memory)
-{
-	size_t square = fast->half * fast->half, all = fast_diagonal_count(fast), at = 0;
-	float **const squares[] = {
-		&fast->to_modes[0], &fast->to_modes[1], &fast->to_layers[0], &fast->to_layers[1]};
-	float **const columns[] = {&fast->multiplier, &fast->inverse};
-
-	for (size_t i = 0; i < sizeof squares / sizeof *squares; i++, at += square)
-		*squares[i] = memory ? memory + at : NULL;
-	for (size_t i = 0; i < sizeof columns / sizeof *columns; i++, at += all)
-		*columns[i] = memory ? memory + at : NULL;
-	return at;
 }
 
 /* In long double: cos in double is chosen by processor and differs in bits. */
@@ -66,21 +42,19 @@ static void fill_modes(struct fast_diagonal *fast)
 
 int fast_diagonal_init(struct fast_diagonal *fast, int layers, int faces, struct error *err)
 {
-	size_t count, singles;
+	size_t half = fast_diagonal_half(layers);
+	size_t square = half * half, row = (size_t)faces + 1, all;
 
-	*fast = (struct fast_diagonal){.columns = columns_make(layers, faces)};
-	fast->half = ((size_t)(layers + 1) / 2 + MODES - 1) / MODES * MODES;
-	count = layout(fast, NULL);
-	singles = layout_single(fast, NULL);
-	fast->memory = calloc(count, sizeof *fast->memory);
-	fast->single_memory = calloc(singles, sizeof *fast->single_memory);
-	if (!fast->memory || !fast->single_memory) {
-		fast_diagonal_clean(fast);
-		return error_memory(
-			err, count * sizeof *fast->memory + singles * sizeof *fast->single_memory);
-	}
-	(void)layout(fast, fast->memory);
-	(void)layout_single(fast, fast->single_memory);
+	*fast = (struct fast_diagonal){.columns = columns_make(layers, faces), .half = half};
+	all = fast_diagonal_count(fast);
+	TRY(arrays_allocate(
+		(struct array[]){ARRAY(fast->to_modes[0], square), ARRAY(fast->to_modes[1], square),
+			ARRAY(fast->to_layers[0], square), ARRAY(fast->to_layers[1], square),
+			ARRAY(fast->of_stretch, 2 * half), ARRAY(fast->of_mean, 2 * half),
+			ARRAY(fast->kept, 2 * half), ARRAY(fast->multiplier, all), ARRAY(fast->inverse, all),
+			ARRAY(fast->bands[0], row), ARRAY(fast->bands[1], row), ARRAY(fast->bands[2], row),
+			ARRAY(fast->bands[3], row), {0}},
+		&fast->memory, err));
 	fill_modes(fast);
 	return 0;
 }
@@ -88,9 +62,7 @@ int fast_diagonal_init(struct fast_diagonal *fast, int layers, int faces, struct
 void fast_diagonal_clean(struct fast_diagonal *fast)
 {
 	free(fast->memory);
-	free(fast->single_memory);
-	fast->memory = NULL;
-	fast->single_memory = NULL;
+	*fast = (struct fast_diagonal){0};
 }
 
 /* Cell i adds h/(4 dx^2) (q_{i-1} - q_i)^2 to K and N^2/(4 h) (q_{i-1} + q_i)^2 to M, to the latter also

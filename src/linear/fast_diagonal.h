@@ -17,8 +17,8 @@
 enum { MODES = 2 * LANES }; /* that a vector holds */
 
 struct fast_diagonal {
-	struct columns columns; /* of layers */
-	size_t half;            /* modes in half a column, a multiple of MODES */
+	struct column_layout columns; /* of layers */
+	size_t half;                  /* modes in half a column, a multiple of MODES */
 	/* sqrt(2/N) cos(a t_m), for even and for odd a: [layers of that kind][half] with m along the row,
 	 * and their transposes [lower modes][half] with the layers along the row. */
 	float *to_modes[2], *to_layers[2];
@@ -28,9 +28,14 @@ struct fast_diagonal {
 	float *multiplier;  /* columns of modes: L of the L D L^T of each tridiagonal system */
 	float *inverse;     /* columns of modes: 1/D */
 	double *bands[4]; /* [faces + 1]: diagonals of K and M, and their coupling to the face before */
-	double *memory;
-	float *single_memory;
+	void *memory;
 };
+
+/* How many modes half a column takes. */
+static inline size_t fast_diagonal_half(int layers)
+{
+	return ((size_t)(layers + 1) / 2 + MODES - 1) / MODES * MODES;
+}
 
 int fast_diagonal_init(struct fast_diagonal *fast, int layers, int faces, struct error *err);
 void fast_diagonal_clean(struct fast_diagonal *fast);

@@ -55,7 +55,7 @@ int pressure_solver_solve(const struct pressure_solver *solver, struct pressure_
 		*residual = pressure_system_residual(system);
 		total += abs(done);
 		if (done < 0 || !isfinite(*residual))
-			return -total;
+			return total ? -total : -1;
 		if (rule->criterion != CRITERION_RESIDUAL || *residual <= rule->residual)
 			return total;
 		held.residual *= 0.5; /* the method's own count was too good */

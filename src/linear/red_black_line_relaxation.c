@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/kernel.h"
+#include "linear/arrays.h"
 #include "linear/pressure_solver.h"
 
 /* What the forward pass reads of a face and eight lines, LANES each, in this order. Every row is divided
@@ -45,25 +46,24 @@ struct memory {
 	struct colour colours[2];
 	double *y;     /* [groups][faces][LANES], between the two passes */
 	double *zeros; /* [faces] */
-	double *block;
+	void *block;
 };
 
-static size_t layout(struct memory *m, double *block)
+/* Of the lines of a face there are zeros on either side, and a little more. */
+static int allocate(struct memory *m, struct error *err)
 {
 	size_t vectors = (size_t)m->faces * m->stride, around = m->stride + LANES;
 	struct colour *even = &m->colours[0], *odd = &m->colours[1];
-	struct {
-		double **part;
-		size_t count, before;
-	} const parts[] = {{&even->records, vectors * RECORD, 0}, {&odd->records, vectors * RECORD, 0},
-		{&even->ratio, vectors, 0}, {&odd->ratio, vectors, 0},
-		{&even->x, vectors + 2 * around, around}, {&odd->x, vectors + 2 * around, around},
-		{&m->y, vectors, 0}, {&m->zeros, (size_t)m->faces, 0}};
-	size_t at = 0;
 
-	for (size_t i = 0; i < sizeof parts / sizeof *parts; at += parts[i++].count)
-		*parts[i].part = block ? block + at + parts[i].before : NULL;
-	return at;
+	TRY(arrays_allocate((struct array[]){ARRAY(even->records, vectors * RECORD),
+							ARRAY(odd->records, vectors * RECORD), ARRAY(even->ratio, vectors),
+							ARRAY(odd->ratio, vectors), ARRAY(even->x, vectors + 2 * around),
+							ARRAY(odd->x, vectors + 2 * around), ARRAY(m->y, vectors),
+							ARRAY(m->zeros, (size_t)m->faces), {0}},
+		&m->block, err));
+	even->x += around;
+	odd->x += around;
+	return 0;
 }
 
 static void destroy(void *memory)
@@ -87,7 +87,6 @@ static int create(
 	int layers, int faces, const struct pressure_options *options, void **out, struct error *err)
 {
 	struct memory *m = malloc(sizeof *m);
-	size_t count;
 
 	if (!m)
 		return error_memory(err, sizeof *m);
@@ -96,13 +95,10 @@ static int create(
 	m->omega = options->relaxation > 0 ? options->relaxation : best_omega(layers);
 	for (int c = 0; c < 2; c++)
 		m->colours[c].lines = (layers + 1 - c) / 2;
-	count = layout(m, NULL);
-	m->block = calloc(count, sizeof *m->block);
-	if (!m->block) {
-		free(m);
-		return error_memory(err, count * sizeof *m->block);
+	if (allocate(m, err) != 0) {
+		destroy(m);
+		return -1;
 	}
-	(void)layout(m, m->block);
 	*out = m;
 	return 0;
 }

@@ -51,6 +51,28 @@ int metric_series_drift(const struct sample *sample, double *out, struct error *
 	return 0;
 }
 
+/* The same of what is there and what has left through the ends, in units of 1e-15. */
+int metric_mass_drift(const struct sample *sample, double *out, struct error *err)
+{
+	struct dataset mass = {0}, left = {0};
+	int result = -1;
+
+	if (metric_read(sample->file, sample->metric->dataset, &mass, err) ||
+		metric_read(sample->file, "mass_outflow", &left, err))
+		goto done;
+	*out = 0;
+	for (size_t i = 1; i < metric_count(&mass) && i < metric_count(&left); i++) {
+		double whole = (mass.values[i] + left.values[i]) / (mass.values[0] + left.values[0]);
+
+		*out = fmax(*out, 1e15 * fabs(whole - 1));
+	}
+	result = 0;
+done:
+	free(mass.values);
+	free(left.values);
+	return result;
+}
+
 /* How far the series rises between two records at most, or in all, relative to its first value. */
 static int rises(const struct sample *sample, bool all, double *out, struct error *err)
 {

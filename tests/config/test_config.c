@@ -82,6 +82,19 @@ static void defaults_are_those_of_the_granular_collapse(void **state)
 	assert_int_equal(c.checkpoint.every_steps, 0);
 }
 
+static void a_default_may_depend_on_the_model(void **state)
+{
+	struct config c;
+
+	(void)state;
+	parse(&c, REQUIRED);
+	assert_int_equal(c.bottom, BOTTOM_FRICTION);
+	parse(&c, IMMERSED);
+	assert_int_equal(c.bottom, BOTTOM_NO_SLIP);
+	parse_with(&c, "bottom=no-slip");
+	assert_int_equal(c.bottom, BOTTOM_NO_SLIP);
+}
+
 static void choices_name_their_enumerators(void **state)
 {
 	struct config c;
@@ -98,6 +111,15 @@ static void choices_name_their_enumerators(void **state)
 	assert_int_equal(c.pressure_solver.operator_, OPERATOR_POINTWISE);
 	assert_int_equal(c.pressure_solver.start, START_PREVIOUS);
 	assert_int_equal(c.pressure_solver.norm, NORM_LINF);
+	parse(&c, REQUIRED "pressure: hydrostatic\ndomain: {left: periodic, right: periodic}\n"
+					   "initial: {shape: uniform}\nregularisation: {viscosity: bounded}\n"
+					   "rheology: {law: constant, strain_rate: second-order}\n");
+	assert_int_equal(c.domain.left, BOUNDARY_PERIODIC);
+	assert_int_equal(c.domain.right, BOUNDARY_PERIODIC);
+	assert_int_equal(c.initial.shape, SHAPE_UNIFORM);
+	assert_int_equal(c.regularisation.viscosity, VISCOSITY_BOUNDED);
+	assert_int_equal(c.rheology.law, LAW_CONSTANT);
+	assert_int_equal(c.rheology.strain_rate, STRAIN_RATE_SECOND_ORDER);
 	parse_with(&c, "pressure_solver.norm=l1");
 	assert_int_equal(c.pressure_solver.norm, NORM_L1);
 }
@@ -123,6 +145,18 @@ static void rules_across_fields_blame_the_later_value(void **state)
 			"a.yaml:4:29: rheology: mu_s (0.5) is above mu_2 (0.4)"},
 		{"rheology: {mu_2: 0.25}\n",
 			"a.yaml:4:18: rheology: mu_s (0.4769755326981602) is above mu_2 (0.25)"},
+		{"domain: {left: periodic}\n",
+			"a.yaml:4:16: domain: left is periodic and right is not; it takes both ends"},
+		{"pressure: hydrostatic\ndomain: {right: periodic, left: wall}\n",
+			"a.yaml:5:33: domain: right is periodic and left is not; it takes both ends"},
+		{"domain: {left: periodic, right: periodic}\n",
+			"a.yaml:4:16: domain: periodic ends need pressure: hydrostatic; the solvers of the "
+			"non-hydrostatic pressure know walls and outflows"},
+		{"layer_fractions: [0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.15, 0.05]\n",
+			"a.yaml:4:18: layer_fractions: they need pressure: hydrostatic; the non-hydrostatic "
+			"pressure is solved for on equal layers"},
+		{"rheology: {law: linear}\n",
+			"a.yaml:4:17: rheology.law: linear is a law of model: immersed"},
 		{"output: {profiles_at: [1 s, 3.5 s]}\n",
 			"a.yaml:4:29: output.profiles_at: 3.5 s is after time.end (3 s); an earlier end wants "
 			"fewer times: output.profiles_at=[1]"},
@@ -164,7 +198,8 @@ static void limits_themselves_are_accepted(void **state)
 		"domain.cells=2", "domain.cells=1000000", "time.cfl=1", "grains.solid_fraction=1",
 		"initial.front=-0.2 m", "initial.front=3 m", "rheology.mu_2=tan(25.5 deg)",
 		"output.profiles_at=[0 s, 3 s]", "output.profiles_at=[]", "checkpoint.every=0",
-		"pressure_solver.max_iterations=1", "domain={cells: 20, left: outflow}"};
+		"pressure_solver.max_iterations=1", "domain={cells: 20, left: outflow}", "walls.mu_w=0",
+		"rheology={law: constant, mu_2: 0.1}", "rheology.strain_rate=second-order"};
 
 	(void)state;
 	for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
@@ -182,10 +217,12 @@ static void values_beyond_the_limits_are_refused(void **state)
 		"domain.cells=1", "domain.cells=1000001", "time.cfl=0", "time.cfl=1.001", "time.end=0 s",
 		"grains.solid_fraction=0", "grains.solid_fraction=1.01", "grains.diameter=0 m",
 		"grains.density=0 kg/m3", "initial.height=0 m", "rheology.mu_s=0", "rheology.mu_2=0",
-		"rheology.i_0=0", "regularisation.strain_rate=0 1/s", "regularisation.velocity=0 m/s",
-		"pressure_solver.tolerance=0", "pressure_solver.max_iterations=0",
-		"output.series_every=-1 s", "output.front_threshold=0 m", "output.static_speed=0 m/s",
-		"checkpoint.every=-1 s", "checkpoint.every_steps=-1"};
+		"rheology.i_0=0", "walls.mu_w=-0.1", "walls.width=0 m", "layer_fractions=[1e-7]",
+		"regularisation.largest_viscosity=0", "regularisation.strain_rate=0 1/s",
+		"regularisation.velocity=0 m/s", "pressure_solver.tolerance=0",
+		"pressure_solver.max_iterations=0", "output.series_every=-1 s",
+		"output.front_threshold=0 m", "output.static_speed=0 m/s", "checkpoint.every=-1 s",
+		"checkpoint.every_steps=-1"};
 
 	(void)state;
 	for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
@@ -519,6 +556,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(defaults_are_those_of_the_granular_collapse),
+		cmocka_unit_test(a_default_may_depend_on_the_model),
 		cmocka_unit_test(choices_name_their_enumerators),
 		cmocka_unit_test(rules_across_fields_blame_the_later_value),
 		cmocka_unit_test(limits_themselves_are_accepted),

@@ -25,16 +25,16 @@ static const char *const colours[] = {"red", "green", "blue", NULL};
 
 static const struct field fields[] = {
 	{"height", FIELD_REAL, FIELD_REQUIRED, offsetof(struct pot, height), "m", "10 cm", "(0, 1 m]",
-		NULL, "of the pot"},
-	{"glaze", FIELD_GROUP, 0, 0, NULL, NULL, NULL, NULL, "its surface"},
+		NULL, "of the pot", NULL},
+	{"glaze", FIELD_GROUP, 0, 0, NULL, NULL, NULL, NULL, "its surface", NULL},
 	{"glaze.mix", FIELD_REAL, 0, offsetof(struct pot, glaze.mix), "1", "0.5", "[0, 1)", NULL,
-		"share of glass"},
+		"share of glass", NULL},
 	{"glaze.colour", FIELD_CHOICE, 0, offsetof(struct pot, glaze.colour), NULL, "green", NULL,
-		colours, "of the glaze"},
+		colours, "of the glaze", NULL},
 	{"count", FIELD_INTEGER, FIELD_PASSIVE, offsetof(struct pot, count), NULL, "1", "[1, inf)",
-		NULL, "pots made"},
+		NULL, "pots made", NULL},
 	{"fired_at", FIELD_REALS, 0, offsetof(struct pot, fired_at), "s", "[]", "(-inf, 1 h]", NULL,
-		"times in the kiln"},
+		"times in the kiln", NULL},
 };
 
 static const struct field_table table = {fields, sizeof fields / sizeof *fields, NULL};

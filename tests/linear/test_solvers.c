@@ -14,7 +14,7 @@
 
 #include "config/config_table.h"
 #include "dry/dry.h"
-#include "linear/columns.h"
+#include "linear/strips.h"
 
 static double noise(unsigned *seed) /* -1 to 1 */
 {
@@ -54,6 +54,15 @@ static void column_face(int cells, double *h, double *b)
 	for (int i = 0; i < cells; i++) {
 		h[i] = i < cells / 2 ? 0.14182 : 0.00182;
 		b[i] = 0;
+	}
+}
+
+/* Two faces, and a step at the right end. */
+static void three_faces(int cells, double *h, double *b)
+{
+	for (int i = 0; i < cells; i++) {
+		h[i] = i < cells / 4 ? 0.04 : i < cells / 2 ? 0.14 : 0.02;
+		b[i] = i < cells - 2 ? 0 : 0.01;
 	}
 }
 
@@ -115,7 +124,7 @@ static const struct problem {
 	{"pointwise, dry ends", 3, 12, true, true, dry_ends, OPERATOR_POINTWISE, false},
 };
 
-enum { PROBLEMS = sizeof problems / sizeof *problems, CELLS_MAX = 40, LAYERS_MAX = 20 };
+enum { PROBLEMS = sizeof problems / sizeof *problems, CELLS_MAX = 200, LAYERS_MAX = 20 };
 
 static const struct pressure_operator *operator_of(const struct problem *problem)
 {
@@ -614,7 +623,7 @@ static void the_cells_and_the_bands_are_one_matrix(void **state)
 			continue;
 		setup_init(&setup, &problems[p], true);
 		int count = count_of(system);
-		struct columns columns = columns_make(system->layers, system->faces);
+		struct column_layout columns = columns_make(system->layers, system->faces);
 		size_t all = columns_count(&columns);
 		double *x = calloc((size_t)count, sizeof *x), *in, *out, *sums;
 		double relative[2], dot = 0, largest = 0;
@@ -735,6 +744,107 @@ static void the_norms_ask_for_different_numbers_of_sweeps(void **state)
 	assert_true(sweeps[NORM_L2] < sweeps[NORM_LINF]);
 }
 
+/* Columns of a system, random but for dry ones. */
+static double *random_columns(
+	const struct column_layout *columns, const struct pressure_system *system)
+{
+	double *x = calloc(columns_count(columns), sizeof *x);
+	unsigned seed = 19;
+
+	assert_non_null(x);
+	for (int f = 0; f < columns->faces; f++)
+		for (int a = 0; a < columns->layers; a++)
+			x[(size_t)f * columns->stride + (size_t)a] = system->cells.dry[f] ? 0 : noise(&seed);
+	return x;
+}
+
+static double largest_of(const double *v, size_t count)
+{
+	double largest = 0;
+
+	for (size_t i = 0; i < count; i++)
+		largest = fmax(largest, fabs(v[i]));
+	return largest;
+}
+
+/* At every strip: zero inside, beside it the product of the new x, and nothing else touched. */
+static void strips_take_the_product_out_of_the_steep_columns_alone(void **state)
+{
+	const struct problem problem = {
+		"", 10, 190, true, false, three_faces, OPERATOR_SYMMETRIC, false};
+	struct column_layout columns = columns_make(problem.layers, problem.cells + 1);
+	size_t group = LANES * columns.stride, all = columns_count(&columns);
+	double *x, *old, product[25000], again[25000], sums[32], sums_again[32], largest;
+	struct strips strips;
+	struct setup setup;
+	struct error err = {0};
+
+	(void)state;
+	assert_true(all <= sizeof product / sizeof *product && columns.groups <= 32);
+	setup_init(&setup, &problem, false);
+	assert_int_equal(strips_init(&strips, problem.layers, columns.faces, &err), 0);
+	strips_factor(&strips, &setup.system);
+	assert_int_equal(strips.count, 3);
+	assert_int_equal(strips.strips[2].last, columns.groups);
+	x = random_columns(&columns, &setup.system);
+	old = random_columns(&columns, &setup.system);
+	columns_apply(&columns, &setup.system, x, product, sums, 0, columns.groups);
+	largest = largest_of(product, columns.groups * group);
+	strips_correct(&strips, &setup.system, x, product, sums);
+	columns_apply(&columns, &setup.system, x, again, sums_again, 0, columns.groups);
+	for (int g = 0; g < columns.groups; g++) {
+		bool inside = false;
+
+		for (int i = 0; i < strips.count; i++)
+			inside |= strips.strips[i].first <= g && g < strips.strips[i].last;
+		for (size_t k = g * group; k < (g + 1) * group && k < columns.faces * columns.stride; k++)
+			if (inside)
+				assert_true(product[k] == 0 && fabs(again[k]) <= 1e-11 * largest);
+			else
+				assert_true(product[k] == again[k] && x[k] == old[k]);
+		assert_true(sums[g] == (inside ? 0 : sums_again[g]));
+	}
+	free(x);
+	free(old);
+	strips_clean(&strips);
+	setup_clean(&setup);
+}
+
+/* Without strips it takes 78 iterations with 20 layers and 184 cells. */
+static void a_steep_face_takes_conjugate_gradients_few_iterations(void **state)
+{
+	static const struct {
+		int layers, cells;
+		void (*shape)(int cells, double *h, double *b);
+	} cases[] = {{20, 184, column_face}, {20, 60, column_face}, {5, 184, column_face},
+		{10, 190, three_faces}};
+	struct stopping_rule rule = {CRITERION_RESIDUAL, NORM_L2, 0, 1e-8, 1000};
+
+	(void)state;
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+		const struct problem face = {"", cases[i].layers, cases[i].cells, true, false,
+			cases[i].shape, OPERATOR_SYMMETRIC, false};
+		struct setup setup;
+		struct pressure_options options = {.threads = 1, .symmetric = true};
+		struct error err = {0};
+		void *memory;
+		unsigned seed = 5;
+		int done;
+
+		setup_init(&setup, &face, false);
+		for (int k = 0; k < count_of(&setup.system); k++)
+			setup.system.rhs[k] = setup.dry[k % setup.grid.faces] ? 0 : noise(&seed);
+		assert_int_equal(
+			conjugate_gradients.create(face.layers, setup.grid.faces, &options, &memory, &err), 0);
+		done = conjugate_gradients.solve(&setup.system, &rule, memory);
+		print_message("# %d layers, %d cells: %d\n", face.layers, face.cells, done);
+		assert_in_range(done, 1, 12);
+		assert_true(pressure_system_residual(&setup.system) <= 1e-8);
+		conjugate_gradients.free(memory);
+		setup_clean(&setup);
+	}
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -751,6 +861,8 @@ int main(void)
 		cmocka_unit_test(factored_blocks_make_the_same_iterates),
 		cmocka_unit_test(one_layer_is_solved_by_the_first_sweep),
 		cmocka_unit_test(the_norms_ask_for_different_numbers_of_sweeps),
+		cmocka_unit_test(strips_take_the_product_out_of_the_steep_columns_alone),
+		cmocka_unit_test(a_steep_face_takes_conjugate_gradients_few_iterations),
 	};
 
 	return cmocka_run_group_tests(tests, NULL, NULL);
