@@ -23,12 +23,13 @@ enum shape_kind {
 enum coordinates_kind { COORDINATES_LOCAL, COORDINATES_CARTESIAN };
 enum given_kind { GIVEN_SAME, GIVEN_LOCAL, GIVEN_CARTESIAN };
 enum topography_kind { TOPOGRAPHY_PLANE, TOPOGRAPHY_BUMP, TOPOGRAPHY_RANDOM, TOPOGRAPHY_FILE };
+enum friction_kind { FRICTION_VISCOUS, FRICTION_COULOMB };
 enum thickness_kind { THICKNESS_WELL_BALANCED, THICKNESS_PLAIN };
 enum law_kind { LAW_MU_I, LAW_CONSTANT, LAW_LINEAR };
 enum strain_rate_kind { STRAIN_RATE_FIRST_ORDER, STRAIN_RATE_SECOND_ORDER };
 enum viscosity_kind { VISCOSITY_DELTA, VISCOSITY_BOUNDED };
 enum wave_speed_kind { WAVE_SPEED_FASTEST, WAVE_SPEED_MEAN };
-enum reconstruction_kind { RECONSTRUCTION_STATIC, RECONSTRUCTION_PRINTED };
+enum reconstruction_kind { RECONSTRUCTION_STATIC, RECONSTRUCTION_PRINTED, RECONSTRUCTION_CREEPING };
 enum method_kind {
 	METHOD_AUTO,
 	METHOD_BLOCK_GAUSS_SEIDEL,
@@ -135,6 +136,7 @@ struct config {
 	} time;
 	struct {
 		int friction_reconstruction; /* enum reconstruction_kind: where dC of P1 (21) balances */
+		int friction;                /* enum friction_kind: how step 2 takes it */
 		int friction_thickness;      /* enum thickness_kind: what carries the friction, P1 (25) */
 		int viscosity_updates;       /* coefficients of step 2 taken anew, times per step */
 	} scheme;

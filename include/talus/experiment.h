@@ -52,6 +52,7 @@ struct experiment_table {
 	struct term_list columns;      /* the same for columns; may be empty */
 	struct term_list metrics;      /* what a cell shows */
 	struct term_list at;           /* profile times for the metrics that need one; empty: the end */
+	struct term_list at_x;         /* positions for the metrics that need one */
 	struct setting_list baseline;  /* makes of a run's config that of the run it is timed against */
 	struct setting_list reference; /* makes of a run's config that of the exact one */
 	struct setting_list only;      /* runs without these values are left out */
@@ -91,6 +92,7 @@ struct experiment_panel {
 	struct term units[2];       /* of x and y; text NULL: SI */
 	const char *labels[2];      /* of x and y; "": made from what is drawn */
 	bool dimensionless;         /* lengths by h_0, times by tau_c, velocities by v_0 */
+	bool above_bed;             /* the thickness without the erodible bed */
 	struct setting_list baseline, reference, only; /* as those of a table */
 	const struct node *names;                      /* legend names of values, NULL: none */
 	struct experiment_points *published;           /* [published_count] */

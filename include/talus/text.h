@@ -40,6 +40,10 @@ bool text_to_integer(const char *string, int *value);
  * characters '?', and what does not fit `size` bytes ends in "...". Returns `buffer`. */
 char *text_excerpt(const char *string, char *buffer, size_t size);
 
+/* Control characters but for tabs and ends of lines become '?': texts of strangers do not speak to the
+ * terminal. NULL is nothing. */
+char *text_tame(char *string);
+
 /* Bytes of the UTF-8 character at `start`, 0 if there is none (overlong, surrogate, cut short). */
 size_t text_character_size(const char *start);
 

@@ -143,6 +143,14 @@ char *text_excerpt(const char *string, char *buffer, size_t size)
 	return buffer;
 }
 
+char *text_tame(char *string)
+{
+	for (char *c = string; c && *c; c++)
+		if (iscntrl((unsigned char)*c) && *c != '\n' && *c != '\t')
+			*c = '?';
+	return string;
+}
+
 int text_distance(const char *a, const char *b)
 {
 	enum { LIMIT = 64 };

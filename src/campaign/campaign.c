@@ -112,11 +112,14 @@ void campaign_look(struct campaign *campaign)
 {
 	for (size_t i = 0; i < campaign->experiment->run_count; i++) {
 		struct task *task = &campaign->tasks[i];
+		enum task_state before = task->state;
 
-		if (task->state == TASK_COMPLETE)
+		if (before == TASK_COMPLETE)
 			continue;
 		task->state = TASK_WAITING;
 		task_look(campaign, task);
+		if (task->report.unknown) /* as before; the next look may tell */
+			task->state = before;
 	}
 	campaign_calibrate(campaign);
 }
@@ -248,6 +251,8 @@ void campaign_log_end(const struct experiment_run *run, int lines, struct text *
 		if (size)
 			text_add(out, "\n");
 	}
+	text_tame(out->data);
+	out->failed |= err.code == EX_SOFTWARE;
 	free(bytes);
 	text_clean(&path);
 }

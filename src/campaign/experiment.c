@@ -95,6 +95,11 @@ static int read_at(const struct reader *reader, const struct node *node, void *t
 	return reader_terms(reader, node, &((struct experiment_table *)target)->at);
 }
 
+static int read_at_x(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_terms(reader, node, &((struct experiment_table *)target)->at_x);
+}
+
 static int read_baseline(const struct reader *reader, const struct node *node, void *target)
 {
 	return reader_settings(reader, node, &((struct experiment_table *)target)->baseline);
@@ -126,6 +131,7 @@ static const struct reader_key table_keys[] = {
 	{"reference", read_reference,
 		"config keys and values that make of a run's config that of the run taken as exact"},
 	{"at", read_at, "profile times of the metrics that are taken at one (default: the end)"},
+	{"at_x", read_at_x, "positions of the metrics that are taken at one; the nearest cell"},
 	{"only", read_only,
 		"config keys and values: runs without them are left out (default: all runs)"},
 	{"dimensionless", read_dimensionless,
@@ -360,6 +366,7 @@ static void table_clean(struct experiment_table *table)
 	free(table->columns.items);
 	free(table->metrics.items);
 	free(table->at.items);
+	free(table->at_x.items);
 	setting_list_clean(&table->baseline);
 	setting_list_clean(&table->reference);
 	setting_list_clean(&table->only);

@@ -142,6 +142,11 @@ static int read_dimensionless(const struct reader *reader, const struct node *no
 	return reader_bool(reader, node, &panel_of(target)->dimensionless);
 }
 
+static int read_above_bed(const struct reader *reader, const struct node *node, void *target)
+{
+	return reader_bool(reader, node, &panel_of(target)->above_bed);
+}
+
 static int read_baseline(const struct reader *reader, const struct node *node, void *target)
 {
 	return read_settings(reader, node, &panel_of(target)->baseline);
@@ -304,6 +309,7 @@ static int read_panels(const struct reader *reader, const struct node *node, voi
 		{"reference", read_reference, "as in a table, for the metrics that compare"},              \
 		{"dimensionless", read_dimensionless,                                                      \
 			"true: lengths over h_0, times over tau_c, velocities over v_0 (P1)"},                 \
+		{"above_bed", read_above_bed, "true: h without the erodible bed layer"},                   \
 		{"log", read_log, "`x`, `y` or both"},                                                     \
 		{"x_range", read_x_range, "`[from, to]` in the unit of the axis"},                         \
 		{"y_range", read_y_range, "`[from, to]` in the unit of the axis"},                         \

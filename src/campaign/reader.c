@@ -185,12 +185,12 @@ static int check_key(const struct reader *reader, const struct leaf_list *list, 
 }
 
 /* A value, a mapping that says how values are made, or a list of values or of lists of them (several values
- * of a key that is a list itself). */
+ * of a key that is a list itself, such as of points). */
 static int check_value(const struct reader *reader, const struct node *node, int depth)
 {
 	if (node->kind == NODE_MAPPING && !depth)
 		return 0;
-	if (node->kind == NODE_MAPPING || (node->kind == NODE_SEQUENCE && depth == 2))
+	if (node->kind == NODE_MAPPING || (node->kind == NODE_SEQUENCE && depth == 3))
 		return reader_fail(reader, node, "a value is wanted here, not %s", node_kind_name(node));
 	for (size_t i = 0; i < node->count; i++)
 		TRY(check_value(reader, &node->items[i], depth + 1));

@@ -154,7 +154,8 @@ static int compare_items(const void *a, const void *b)
 }
 
 /* Look at the tasks once more: which of them are in the queue? */
-static void look_at_tasks(struct submission *submission, const struct queue_entry *entries)
+static int look_at_tasks(
+	struct submission *submission, const struct queue_entry *entries, struct error *err)
 {
 	struct campaign *campaign = submission->campaign;
 
@@ -162,6 +163,8 @@ static void look_at_tasks(struct submission *submission, const struct queue_entr
 		struct task *task = &campaign->tasks[i];
 
 		task_look(campaign, task);
+		if (task->report.unknown)
+			return error_memory(err, sizeof task->report);
 		task->queue = entries[i];
 		if (!task->queue.job[0] || task->state == TASK_COMPLETE)
 			continue;
@@ -170,6 +173,7 @@ static void look_at_tasks(struct submission *submission, const struct queue_entr
 		if (task->state != TASK_LEFT)
 			task->state = TASK_QUEUED;
 	}
+	return 0;
 }
 
 /* The tasks that are neither at their end nor in the queue nor at work elsewhere. */
@@ -179,7 +183,7 @@ static int choose_tasks(
 	const struct campaign *campaign = submission->campaign;
 	struct task **order;
 
-	look_at_tasks(submission, entries);
+	TRY(look_at_tasks(submission, entries, err));
 	order = campaign_order(campaign, err);
 	if (!order)
 		return -1;

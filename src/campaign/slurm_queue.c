@@ -183,6 +183,7 @@ int slurm_queue(const struct experiment *experiment, struct queue_entry *entries
 	if (process_run(squeue, SLURM_PATIENCE, &out, err) || lookup_init(&lookup, experiment, err))
 		goto done;
 	text_add(&out, ""); /* not NULL */
+	text_tame(out.data);
 	result =
 		out.failed ? error_memory(err, out.capacity) : read_lines(&lookup, out.data, entries, err);
 done:

@@ -42,8 +42,14 @@ bool task_may_begin_anew(const struct campaign *campaign, const struct task *tas
 
 void task_look(const struct campaign *campaign, struct task *task)
 {
-	run_report_read(task->run->folder, &task->report);
-	if (task->report.unknown || (task->state != TASK_WAITING && task->state != TASK_ELSEWHERE))
+	struct run_report report;
+
+	run_report_read(task->run->folder, &report);
+	if (report.unknown)
+		task->report.unknown = true;
+	else
+		task->report = report;
+	if (report.unknown || (task->state != TASK_WAITING && task->state != TASK_ELSEWHERE))
 		return;
 	switch (task->report.state) {
 	case RUN_STATE_RUNNING:

@@ -54,7 +54,7 @@ bool turn_reaches(const struct turn *turn, const double *x, const double *d, int
 	double rounding = 1e-9 * grid->dx;
 
 	for (int k = 0; k + 1 < count; k++)
-		if (turned_x(turn, x[k + 1], d[k + 1]) <= turned_x(turn, x[k], d[k])) {
+		if (turned_x(turn, x[k + 1], d[k + 1]) < turned_x(turn, x[k], d[k])) {
 			*at = x[k];
 			return false;
 		}

@@ -97,6 +97,7 @@ int command_print(struct text *text)
 		(void)error_memory(&err, text->capacity);
 		code = command_fail(&err);
 	} else {
+		text_tame(text->data);
 		(void)fwrite(text_string(text), 1, text->length, stdout);
 		code = command_flush(0);
 	}

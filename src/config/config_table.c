@@ -50,6 +50,8 @@ static const char *const givens[] = {[GIVEN_SAME] = "same", [GIVEN_LOCAL] = "loc
 	[GIVEN_CARTESIAN] = "cartesian", NULL};
 static const char *const topographies[] = {[TOPOGRAPHY_PLANE] = "plane",
 	[TOPOGRAPHY_BUMP] = "bump", [TOPOGRAPHY_RANDOM] = "random", [TOPOGRAPHY_FILE] = "file", NULL};
+static const char *const frictions[] = {
+	[FRICTION_VISCOUS] = "viscous", [FRICTION_COULOMB] = "coulomb", NULL};
 static const char *const thicknesses[] = {
 	[THICKNESS_WELL_BALANCED] = "well-balanced", [THICKNESS_PLAIN] = "plain", NULL};
 static const char *const laws[] = {
@@ -61,7 +63,8 @@ static const char *const viscosities[] = {
 static const char *const wave_speeds[] = {
 	[WAVE_SPEED_FASTEST] = "fastest", [WAVE_SPEED_MEAN] = "mean", NULL};
 static const char *const reconstructions[] = {
-	[RECONSTRUCTION_STATIC] = "static", [RECONSTRUCTION_PRINTED] = "printed", NULL};
+	[RECONSTRUCTION_STATIC] = "static", [RECONSTRUCTION_PRINTED] = "printed",
+	[RECONSTRUCTION_CREEPING] = "creeping", NULL};
 static const char *const methods[] = {[METHOD_AUTO] = "auto",
 	[METHOD_BLOCK_GAUSS_SEIDEL] = "block-gauss-seidel",
 	[METHOD_BLOCK_GAUSS_SEIDEL_FACTORED] = "block-gauss-seidel-factored",
@@ -221,7 +224,11 @@ static const struct field fields[] = {
 	GROUP(scheme, DRY, "readings of the discretisation"),
 	CHOICE("scheme.friction_reconstruction", scheme.friction_reconstruction, DRY, "static",
 		reconstructions,
-		"where friction balances the slope in P1 (21): static: only at rest; printed: also in motion"),
+		"where friction balances the slope in P1 (21): static: only at rest; printed: also in motion; "
+		"creeping: as printed below 100 delta, else static; heaps keep their shape best with it"),
+	CHOICE("scheme.friction", scheme.friction, DRY, "viscous", frictions,
+		"viscous: implicit with a regularised viscosity (P1 23-25); coulomb: slows one layer down or stops it "
+		"(P2 step 2)"),
 	CHOICE("scheme.friction_thickness", scheme.friction_thickness, DRY, "well-balanced", thicknesses,
 		"thickness that carries the friction: well-balanced: P1 (25); plain: h (P1 Table 6b)"),
 	INTEGER(scheme.viscosity_updates, DRY, "0", "[0, 100]",

@@ -3,7 +3,12 @@
 #define TALUS_CONFIG_TABLE_H
 
 #include "config/field.h"
+#include "talus/config.h"
 
 extern const struct field_table config_table;
+
+/* config_geometry.c: EX_DATAERR with the place. */
+int config_check_geometry(
+	const struct config *config, const struct field_reader *reader, struct error *err);
 
 #endif

@@ -50,8 +50,9 @@ struct dry_parameters {
 	double cfl;
 	double front_threshold, static_speed; /* m, m/s */
 	bool fastest;                         /* wave speed: max over the layers, not the mean */
-	bool static_balance;                  /* dC balances only where it can */
 	int viscosity_updates;                /* times that step 2 is done again */
+	int reconstruction;                   /* enum reconstruction_kind: where dC balances */
+	bool coulomb;                         /* friction slows down or stops one layer (P2) */
 	bool plain_thickness;                 /* friction is carried by h, not by P1 (25) */
 	bool non_hydrostatic;
 };
@@ -160,6 +161,12 @@ KERNEL_PART double dry_mu(const struct dry_parameters *par, double shear, double
 
 	return par->mu_s +
 		   (par->mu_2 - par->mu_s) * inertia / (par->i_0 * __builtin_sqrt(p) + inertia + 1e-300);
+}
+
+/* Beside a cell of thickness `h` on a bed `b`: does the bed of the other cell stand out of the grains, dry? */
+KERNEL_PART bool dry_emerges(double h, double b, double other_h, double other_b)
+{
+	return (other_h <= DRY_NO_MOMENTUM) & (h + b < other_b);
 }
 
 /* Velocities from discharges, zero where the cell is dry, with ghosts; and what their layers sum up to. */

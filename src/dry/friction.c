@@ -36,7 +36,11 @@ KERNEL_PART void friction_thickness(
 	if (chunk.last == s->grid.cells && s->grid.right_wall)
 		plane[c->cells - 1] = -s->par.tan_slope * s->grid.dx;
 	for (int k = 0; k < c->cells; k++) {
-		double jump = h[k + 1] + b[k + 1] - h[k - 1] - b[k - 1] + plane[k];
+		bool shore_l = dry_emerges(h[k], b[k], h[k - 1], b[k - 1]);
+		bool shore_r = dry_emerges(h[k], b[k], h[k + 1], b[k + 1]);
+		double eta = h[k] + b[k], eta_l = h[k - 1] + b[k - 1], eta_r = h[k + 1] + b[k + 1];
+		double jump =
+			(shore_r ? eta : eta_r) - (shore_l ? eta : eta_l) + plane[k]; /* level there */
 		double smooth = 0.5 * h[k] + 0.25 * (h[k - 1] + h[k + 1]);
 		double speed = fabs(bottom[k]) > fabs(top[k]) ? fabs(bottom[k]) : fabs(top[k]);
 		double carries = speed < rest ? 2 * smooth : smooth;
@@ -225,6 +229,25 @@ KERNEL_PART void substitute(int cells, const double *restrict h, const double *r
 	}
 }
 
+/* P2 step 2, for one layer: it loses what friction takes in the step, or stops, also upwards. */
+KERNEL_PART void slow_or_stop(
+	struct model_state *s, struct chunk chunk, const struct columns *c, double dt)
+{
+	const struct dry_parameters par = s->par;
+	size_t first = (size_t)chunk.first;
+	const double *restrict u = s->u + first, *restrict q = s->q + first - 1;
+	double *restrict U = s->U + first, *restrict W = s->W + first;
+
+	for (int k = 0; k < c->cells; k++) {
+		double p = positive(par.gc * c->hs[k] + 0.5 * (q[k] + q[k + 1]));
+		double takes = dt * dry_mu(&par, fabs(u[k]) / c->h[k], p) * p;
+		double left = fabs(U[k]) - takes;
+
+		U[k] = left > 0 ? __builtin_copysign(left, U[k]) : 0;
+		W[k] = left > 0 ? W[k] : 0;
+	}
+}
+
 /* P1 (24) by the Thomas algorithm: h u_a - dt/l_a [k_up (u_{a+1} - u_a) - k_down (u_a - u_{a-1})] = U_a.
  * U turns into u on the way up and back into h u on the way down. */
 KERNEL_PART void solve(struct model_state *s, struct friction_choice choice, struct chunk chunk,
@@ -276,6 +299,10 @@ KERNEL static void friction(struct model_state *s, struct chunk chunk, double dt
 	if (thin)
 		slide_as_one(s, chunk, h, c.cells, dt);
 	friction_thickness(s, chunk, &c);
+	if (s->par.coulomb) {
+		slow_or_stop(s, chunk, &c, dt);
+		return;
+	}
 	/* a copy for each: a choice within a loop would keep it from being vectorised */
 	switch (choice.no_slip | choice.second_order << 1 | choice.bounded << 2 | choice.walls << 3) {
 		SOLVE(0);

@@ -40,17 +40,21 @@ KERNEL_PART double larger(double a, double b)
 
 /* dC: the part of the surface slope that friction holds (P1, text after 21). `h`, `u`: means of the
  * thickness and of |u_1| at the face, `q` there at the bottom. */
-KERNEL_PART double held_jump(const struct dry_parameters *par, bool static_balance, double h,
+KERNEL_PART double held_jump(const struct dry_parameters *par, int reconstruction, double h,
 	double u, double q, double eta_jump, double u_roe, double dt, double dx, double n)
 {
 	double p = positive(par->gc * h + q);
 	double mu = dry_mu(par, h > DRY_NO_MOMENTUM ? u * n / h : 0, p);
 	double force = u_roe / dt - par->gc * eta_jump / dx, most = par->gc * mu;
+	double still = fabs(eta_jump) <= REST_MARGIN * mu * dx ? -eta_jump : 0;
 
-	if (static_balance)
-		return fabs(eta_jump) <= REST_MARGIN * mu * dx ? -eta_jump : 0;
+	if (reconstruction == RECONSTRUCTION_STATIC)
+		return still;
 	force = force > most ? most : force < -most ? -most : force;
-	return force * dx / par->gc;
+	force = force * dx / par->gc;
+	if (reconstruction == RECONSTRUCTION_PRINTED)
+		return force;
+	return fabs(u_roe) < 100 * par->delta_velocity ? force : still;
 }
 
 /* Difference of the bed and the reference plane over every face; a wall mirrors the plane. */
@@ -89,7 +93,7 @@ KERNEL_PART void hll_coefficients(const struct model_state *s, struct window *r,
 }
 
 /* Hydrostatic reconstruction, with the part of the slope that friction holds and without (P1 20, 21). */
-KERNEL_PART void reconstruct(const struct model_state *s, bool static_balance, double dt,
+KERNEL_PART void reconstruct(const struct model_state *s, int reconstruction, double dt,
 	const double *restrict plane, const double *restrict u_roe, struct window *r)
 {
 	const struct dry_parameters par = s->par;
@@ -101,7 +105,7 @@ KERNEL_PART void reconstruct(const struct model_state *s, bool static_balance, d
 
 	for (int f = 0; f < r->faces; f++) {
 		double db = b_j[f] - b_i[f], dz = db + plane[f], hbar = 0.5 * (h_i[f] + h_j[f]);
-		double held = dz + held_jump(&par, static_balance, hbar, 0.5 * fabs(u_i[f] + u_j[f]), q[f],
+		double held = dz + held_jump(&par, reconstruction, hbar, 0.5 * fabs(u_i[f] + u_j[f]), q[f],
 							   dz + h_j[f] - h_i[f], u_roe[f], dt, dx, n);
 		double left = positive(h_i[f] - positive(held)), right = positive(h_j[f] - positive(-held));
 
@@ -127,12 +131,6 @@ KERNEL_PART void mass_fluxes(const struct model_state *s, struct window *r)
 	}
 }
 
-/* The bed stands out of the grains: no grains flow over its dry step (P1 Remark 2). */
-KERNEL_PART bool emerges(double h, double b, double dry_h, double dry_b)
-{
-	return (dry_h <= DRY_NO_MOMENTUM) & (h + b < dry_b);
-}
-
 /* The part of what flows out of a cell that it holds. */
 KERNEL_PART double payable(double h, double flux_left, double flux_right, double dt, double dx)
 {
@@ -141,7 +139,8 @@ KERNEL_PART double payable(double h, double flux_left, double flux_right, double
 	return out > h ? h * (1 - 1e-12) / out : 1;
 }
 
-/* No cell gives away more than it holds; what it gives is cut to the share that it can pay. */
+/* No cell gives away more than it holds; what it gives is cut to the share that it can pay. Nothing flows
+ * over a dry step of the bed that stands out of the grains (P1 Remark 2). */
 KERNEL_PART void limit_outflow(const struct model_state *s, double dt, struct window *r)
 {
 	const double *restrict h = s->h + r->first, *restrict flux = r->mass_flux;
@@ -154,8 +153,8 @@ KERNEL_PART void limit_outflow(const struct model_state *s, double dt, struct wi
 		pays[j] = payable(h[j], flux[j - 1], flux[j], dt, s->grid.dx);
 	for (int f = 0; f < r->faces; f++) {
 		double left = pays[f], right = pays[f + 1], share = flux[f] > 0 ? left : right;
-		bool blocked =
-			emerges(h[f], b[f], h[f + 1], b[f + 1]) | emerges(h[f + 1], b[f + 1], h[f], b[f]);
+		bool blocked = dry_emerges(h[f], b[f], h[f + 1], b[f + 1]) |
+					   dry_emerges(h[f + 1], b[f + 1], h[f], b[f]);
 
 		r->share[f] = blocked ? 0 : share;
 	}
@@ -263,10 +262,12 @@ KERNEL_PART void fill_window(const struct model_state *s, double dt, struct wind
 
 	plane_jumps(s, r, plane);
 	hll_coefficients(s, r, u_roe);
-	if (s->par.static_balance)
-		reconstruct(s, true, dt, plane, u_roe, r);
+	if (s->par.reconstruction == RECONSTRUCTION_STATIC)
+		reconstruct(s, RECONSTRUCTION_STATIC, dt, plane, u_roe, r);
+	else if (s->par.reconstruction == RECONSTRUCTION_PRINTED)
+		reconstruct(s, RECONSTRUCTION_PRINTED, dt, plane, u_roe, r);
 	else
-		reconstruct(s, false, dt, plane, u_roe, r);
+		reconstruct(s, RECONSTRUCTION_CREEPING, dt, plane, u_roe, r);
 	mass_fluxes(s, r);
 }
 

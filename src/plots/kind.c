@@ -159,6 +159,15 @@ static void multiply(double *values, size_t count, double factor)
 		values[i] *= factor;
 }
 
+static void leave_bed_out(const struct kind_request *request, const struct kind_run *run,
+	const char *name, double *values, size_t count)
+{
+	if (!request->wanted->above_bed || !run->config || strcmp(name, "h") != 0)
+		return;
+	for (size_t i = 0; i < count; i++)
+		values[i] -= run->config->erodible_bed_thickness;
+}
+
 static int lacks(const struct kind_request *request, const struct kind_run *run, struct error *err)
 {
 	if (err->code != EX_DATAERR && err->code != EX_NOINPUT)
@@ -219,6 +228,7 @@ static int add_slice(const struct kind_request *request, const struct kind_run *
 	if (!strcmp(place->along, "time"))
 		for (size_t i = 0; i < slice->count && slice->axis[i] < meaning_settles(name); i++)
 			slice->values[i] = NAN;
+	leave_bed_out(request, run, name, slice->values, slice->count);
 	TRY(dataset_axis(request, run, kind->upright ? 0 : 1, name, &factor, err));
 	multiply(slice->values, slice->count, factor);
 	if (kind->upright) {
@@ -298,8 +308,8 @@ static int add_places(const struct kind_request *request, const struct kind_run 
 }
 
 /* The axis of the dataset that stays: across the layers it is known by two names. */
-static const char *along_of(const struct kind *kind, const struct kind_run *run, const char *name,
-	struct error *err)
+static const char *along_of(
+	const struct kind *kind, const struct kind_run *run, const char *name, struct error *err)
 {
 	const char *layers = slice_layer_axis(run->file, name, err);
 
@@ -370,6 +380,7 @@ static int add_map(const struct kind_request *request, const struct kind_run *ru
 			error_memory(err, map.rows * map.columns * sizeof *map.values);
 			goto done;
 		}
+		leave_bed_out(request, run, name, slice.values, slice.count);
 		memcpy(map.values + row * map.columns, slice.values, map.columns * sizeof *map.values);
 	}
 	map.x = slice.axis;

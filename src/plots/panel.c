@@ -74,6 +74,7 @@ static int lay_out(struct panel *panel, const struct experiment_plot *plot, stru
 	if (!panel->kind->add) {
 		table->metrics = wanted->y;
 		table->at = wanted->at;
+		table->at_x = wanted->at_x;
 		table->baseline = wanted->baseline;
 		table->reference = wanted->reference;
 	}

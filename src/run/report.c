@@ -123,4 +123,5 @@ void run_report_read(const char *folder, struct run_report *report)
 	read_run_file(folder, report);
 	if (!told || (report->state == RUN_STATE_FAILED && !*report->reason))
 		read_content(folder, report);
+	text_tame(report->reason);
 }

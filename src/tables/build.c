@@ -94,6 +94,8 @@ static int add_number_column(
 	TRY(add_metric_head(builder, measure->metric, out, err));
 	if (measure->at_text)
 		TRY(add_head(out, "at", measure->at_text, err));
+	if (measure->x_text)
+		TRY(add_head(out, "at_x", measure->x_text, err));
 	return *source ? add_head(out, "", source, err) : 0;
 }
 

@@ -341,11 +341,15 @@ static int check_observed(const struct layout *layout, const struct measure *mea
 }
 
 static int add_measure(struct layout *layout, const struct metric *metric, const struct term *name,
-	const struct term *at, struct error *err)
+	const struct term *at, const struct term *x, struct error *err)
 {
 	struct measure *measure = &layout->measures[layout->measure_count++];
 
-	*measure = (struct measure){metric, NAN, at ? at->text : NULL};
+	*measure = (struct measure){metric, NAN, at ? at->text : NULL, NAN, x ? x->text : NULL};
+	if (metric->profile == METRIC_COLUMN && !x)
+		return layout_fail(layout, name, err, "%s is taken at a position: 'at_x'", metric->name);
+	if (x && quantity_read(x->text, "m", &measure->x, err))
+		return layout_place_error(layout, x, err);
 	if (at && quantity_read(at->text, "s", &measure->at, err))
 		return layout_place_error(layout, at, err);
 	if (metric->profile)
@@ -354,14 +358,21 @@ static int add_measure(struct layout *layout, const struct metric *metric, const
 	return metric->observes ? check_observed(layout, measure, at ? at : name, err) : 0;
 }
 
-/* Every metric once, those of a profile once for every time. */
+static const struct term *term(const struct term_list *list, size_t i)
+{
+	return i < list->count ? &list->items[i] : NULL;
+}
+
+/* Every metric once, those of a profile once for every time, those of a place once for every position. */
 static int list_measures(struct layout *layout, struct error *err)
 {
 	const struct term_list *names = &layout->wanted->metrics, *at = &layout->wanted->at;
+	const struct term_list *at_x = &layout->wanted->at_x;
+	size_t most = names->count * (at->count + 1) * (at_x->count + 1);
 
-	layout->measures = calloc(names->count * (at->count + 1) + 1, sizeof *layout->measures);
+	layout->measures = calloc(most + 1, sizeof *layout->measures);
 	if (!layout->measures)
-		return error_memory(err, names->count * (at->count + 1) * sizeof *layout->measures);
+		return error_memory(err, most * sizeof *layout->measures);
 	for (size_t i = 0; i < names->count; i++) {
 		const char *nearest;
 		const struct metric *metric = metric_find(names->items[i].text, &nearest);
@@ -372,10 +383,14 @@ static int list_measures(struct layout *layout, struct error *err)
 				nearest);
 			return -1;
 		}
-		if (!metric->profile || !at->count)
-			TRY(add_measure(layout, metric, &names->items[i], NULL, err));
-		for (size_t k = 0; metric->profile && k < at->count; k++)
-			TRY(add_measure(layout, metric, &names->items[i], &at->items[k], err));
+		size_t times = metric->profile && at->count ? at->count : 1;
+		size_t positions = metric->profile == METRIC_COLUMN && at_x->count ? at_x->count : 1;
+
+		for (size_t k = 0; k < times; k++)
+			for (size_t p = 0; p < positions; p++)
+				TRY(add_measure(layout, metric, &names->items[i],
+					metric->profile ? term(at, k) : NULL,
+					metric->profile == METRIC_COLUMN ? term(at_x, p) : NULL, err));
 	}
 	return 0;
 }

@@ -25,6 +25,8 @@ struct measure {
 	const struct metric *metric;
 	double at;           /* profile time, s; NaN: the end of each run */
 	const char *at_text; /* as written, NULL: the end */
+	double x;            /* position, m */
+	const char *x_text;  /* as written, NULL: everywhere */
 };
 
 enum { LAYOUT_NOWHERE = -1 };

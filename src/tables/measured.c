@@ -78,7 +78,7 @@ static double evaluate(struct measured *measured, size_t index, struct run_file 
 	const struct metric *metric = measure->metric;
 	enum metric_partner kind = metric_partner(metric);
 	struct sample sample = {
-		.file = file, .config = &run->config, .at = measure->at, .metric = metric};
+		.file = file, .config = &run->config, .at = measure->at, .x = measure->x, .metric = metric};
 	struct error refusal = {0};
 	double value = NAN;
 
@@ -91,6 +91,7 @@ static double evaluate(struct measured *measured, size_t index, struct run_file 
 			partner == index ? file : open_other(measured, &measured->partner, partner, err);
 		if (!sample.partner)
 			return err->code ? NAN : miss_other(measured, index, partner);
+		sample.partner_config = &measured->layout->experiment->runs[partner].config;
 	}
 	if ((metric->observes && layout_observed(measured->layout, run, metric->observes,
 								 metric->profile, &sample.observed, &refusal)) ||

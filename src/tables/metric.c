@@ -105,6 +105,27 @@ static int runout(const struct sample *sample, double *out, struct error *err)
 	return 0;
 }
 
+/* In percent of that of the reference run. */
+static int runout_change(const struct sample *sample, double *out, struct error *err)
+{
+	struct sample other = *sample;
+	double reference;
+
+	other.file = sample->partner;
+	TRY(runout(&other, &reference, err));
+	TRY(runout(sample, out, err));
+	*out = 100 * (*out / reference - 1);
+	return 0;
+}
+
+/* h_f of P3, which falls as the bed gets thicker. */
+static int deposit_height(const struct sample *sample, double *out, struct error *err)
+{
+	TRY(metric_series_last(sample, out, err));
+	*out -= sample->config->erodible_bed_thickness;
+	return 0;
+}
+
 /* Profiles are stored at the very times that were asked for; the tolerance is for times written in other
  * units. */
 int metric_profile_row(struct run_file *file, double time, size_t *row, struct error *err)
@@ -153,6 +174,9 @@ static int difference(const struct sample *sample, int power, double *out, struc
 
 	if (read_thickness(sample->file, sample->at, &h, &cells, err) ||
 		read_thickness(sample->partner, sample->at, &reference, &reference_cells, err))
+		goto done;
+	if (sample->config->coordinates != sample->partner_config->coordinates &&
+		metric_turn_thickness(sample, &h, &cells, err))
 		goto done;
 	if (cells != reference_cells) {
 		error_set(
@@ -366,6 +390,8 @@ static const struct metric metrics[] = {
 	{"steps", "steps", "", 0, PARTNER_NONE, false, NULL, steps, NULL, "number of time steps"},
 	{"runout", "runout", "m", 3, PARTNER_NONE, false, NULL, runout, "front_position",
 		"final position of the front, from the gate"},
+	{"runout-change", "change of runout", "%", 1, PARTNER_REFERENCE, false, NULL, runout_change,
+		"front_position", "how much longer the runout is than that of the `reference` run"},
 	{"stopping-time", "stopping time", "s", 3, PARTNER_NONE, false, NULL, stopping_time,
 		"max_speed", "the last time at which some layer is faster than output.static_speed"},
 	{"front-stopping-time", "front stops at", "s", 3, PARTNER_NONE, false, NULL, stopping_time,
@@ -374,6 +400,11 @@ static const struct metric metrics[] = {
 		"max_thickness", "the greatest thickness at the end"},
 	{"mass-drift", "mass drift", "1e-15", 1, PARTNER_NONE, false, NULL, metric_mass_drift, "mass",
 		"greatest relative change of the mass and what has left, in 1e-15"},
+	{"deposit-height", "height of deposit", "m", 4, PARTNER_NONE, false, NULL, deposit_height,
+		"max_thickness", "the same above the erodible bed layer"},
+	{"mean-velocity", "mean velocity", "m/s", 3, PARTNER_NONE, METRIC_COLUMN, NULL,
+		metric_mean_velocity, "u",
+		"velocity along the slope averaged over the layers, at a profile time and a position"},
 	{"energy-rise", "rise in a step", "", -1, PARTNER_NONE, false, NULL, metric_series_rise,
 		"energy",
 		"how far the energy of P1 Theorem 1 rises between two records at most, over its first "
@@ -395,9 +426,22 @@ static const struct metric metrics[] = {
 		"difference of the front from observations over time, relative to its way from the gate"},
 	{"l1-difference", "l1", "%", 2, PARTNER_REFERENCE, true, NULL, l1_difference, NULL,
 		"difference in thickness from the `reference` run, over the mass above the bed: l1 norm, "
-		"at a profile time"},
+		"at a profile time, in the coordinates of the reference"},
 	{"l2-difference", "l2", "%", 2, PARTNER_REFERENCE, true, NULL, l2_difference, NULL,
 		"the same in the l2 norm"},
+	{"front-difference", "front", "%", 1, PARTNER_REFERENCE, true, NULL, metric_front_difference,
+		NULL,
+		"difference of the front from the `reference` run at a profile time, relative to its way "
+		"from "
+		"the gate along the plane"},
+	{"h-drift", "h L1", "m2", -1, PARTNER_NONE, false, NULL, metric_drift_l1, "h",
+		"the greatest distance of a stored thickness from the first one stored, L1 as P1 (35)"},
+	{"u-drift", "u L1", "m3/s", -1, PARTNER_NONE, false, NULL, metric_drift_l1, "u",
+		"the same of the layer velocities along the slope"},
+	{"w-drift", "w L1", "m3/s", -1, PARTNER_NONE, false, NULL, metric_drift_l1, "w",
+		"the same of those normal to the slope"},
+	{"h-change", "h moves", "m", -1, PARTNER_NONE, false, NULL, metric_drift_largest, "h",
+		"the greatest change of the thickness at any place since the first profile stored"},
 	{"h-l1", "h L1", "m2", -1, PARTNER_REFERENCE, true, NULL, metric_reference_l1, "h",
 		"difference in thickness from the `reference` run, which is averaged over the cells of "
 		"this "

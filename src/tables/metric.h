@@ -25,11 +25,15 @@ enum metric_partner {
 struct sample {
 	struct run_file *file;
 	const struct config *config;
-	struct run_file *partner;        /* of the kind the metric asks for, else NULL */
+	struct run_file *partner; /* of the kind the metric asks for, else NULL */
+	const struct config *partner_config;
 	double at;                       /* profile time, s */
+	double x;                        /* position, m */
 	const struct observed *observed; /* that have the dataset the metric observes, else NULL */
 	const struct metric *metric;
 };
+
+enum { METRIC_COLUMN = 2 };
 
 struct metric {
 	const char *name;   /* as an experiment calls it */
@@ -37,7 +41,7 @@ struct metric {
 	const char *unit;   /* "" if none */
 	int decimals;       /* -1: three significant digits */
 	enum metric_partner partner;
-	bool profile;         /* taken at a profile time */
+	int profile; /* taken at a profile time: false, true, or METRIC_COLUMN: at a position, too */
 	const char *observes; /* dataset that is compared with observations, NULL: none */
 	/* Of an order the error that falls. EX_DATAERR where the file lacks what is needed. */
 	int (*value)(const struct sample *sample, double *out, struct error *err);

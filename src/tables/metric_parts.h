@@ -18,8 +18,21 @@ int metric_steady_l2(const struct sample *sample, double *out, struct error *err
 int metric_steady_linf(const struct sample *sample, double *out, struct error *err);
 int metric_layer_max(const struct sample *sample, double *out, struct error *err);
 
+/* metric_place.c: at a profile time and a position. */
+int metric_mean_velocity(const struct sample *sample, double *out, struct error *err);
+
 /* metric_reference.c: a profile over x against that of a finer reference run. */
 int metric_reference_l1(const struct sample *sample, double *out, struct error *err);
+
+/* metric_drift.c: the greatest distance from the first stored profile, L1 as P1 (35) or of any one value. */
+int metric_drift_l1(const struct sample *sample, double *out, struct error *err);
+int metric_drift_largest(const struct sample *sample, double *out, struct error *err);
+
+/* metric_coordinates.c: a thickness of the sample's run changed into the coordinates and onto the cells of its
+ * partner; the way of the front at a profile time against that of the partner, along the plane. */
+int metric_turn_thickness(
+	const struct sample *sample, double **h, size_t *cells, struct error *err);
+int metric_front_difference(const struct sample *sample, double *out, struct error *err);
 
 /* metric_series.c: numbers of a series. */
 int metric_series_last(const struct sample *sample, double *out, struct error *err);

@@ -53,3 +53,12 @@ talus campaign run -e slurm --timeout 2h study.yaml
 echo "exit $?"
 talus campaign retry -e slurm --max-failures 3 study.yaml
 echo "exit $?"
+
+echo '--- words of the queue do not speak to the terminal'
+shim squeue 'cat queue/* 2>/dev/null; :'
+rm -rf queue/* results
+REASON=$'\e]0;owned\a' talus campaign run -e slurm study.yaml >/dev/null
+for action in status why; do
+	talus campaign $action study.yaml >out 2>&1
+	echo "$action: $(grep -c owned out) owned, $(grep -c $'[\e\a]' out) spoken"
+done

@@ -72,3 +72,25 @@ talus campaign run titles.yaml
 echo "exit $?"
 printf 'base: small.yaml\npublished: {"\\e[31m": 1}\n' >titles.yaml
 talus campaign run titles.yaml
+
+echo '== texts that speak to the terminal, in the files of a run'
+printf 'base: small.yaml\nruns: [{layers: [2, 1]}]\n' >speaks.yaml
+talus campaign run speaks.yaml >/dev/null
+"${PYTHON:-/usr/bin/python3}" - <<'END'
+import h5py
+with h5py.File('before.h5', 'a') as file:
+    file.attrs['created'] = b'\033]0;owned\a'
+END
+for run in results/speaks/*; do
+	sed -i 's/^reason:.*/reason: "\\e]0;owned\\a"/; s/^state:.*/state: failed/' "$run/status.yaml"
+	printf '\e]0;owned\a\n' >>"$run/run.log"
+	rm "$run"/run*.h5
+	cp before.h5 "$run/run.h5" # made from another config
+done
+echo damaged >"$run/run.h5"
+for command in 'campaign status speaks.yaml' 'campaign why speaks.yaml' 'campaign run speaks.yaml' \
+	'campaign watch speaks.yaml' 'info before.h5'; do
+	# shellcheck disable=SC2086
+	talus $command >out 2>&1
+	echo "exit $?: $command: $(grep -c owned out) owned, $(grep -c $'[\e\a]' out) spoken"
+done

@@ -31,6 +31,9 @@ plots:
     at: [0.1 s, 0.2 s]
     reference: {layers: 4, pressure: non-hydrostatic}
     lines: [layers, pressure]
+  - {name: bare, kind: profile, y: h, at: 0.1 s, lines: [layers, pressure], x_range: [0.2, 0.4], y_unit: mm}
+  - {name: above, kind: profile, y: h, at: 0.1 s, lines: [layers, pressure], x_range: [0.2, 0.4], y_unit: mm,
+     above_bed: true}
   - name: split
     kind: profile
     y: [h, static_height]
@@ -65,6 +68,9 @@ END
 }
 svg results/study/figures/over.svg | grep -E '[a-z]' | sort -u
 svg results/study/figures/times.svg | grep -E '[a-z]' | sort -u
+for name in bare above; do
+	svg results/study/figures/$name.svg | grep -E '^-?[0-9.]+$' | paste -sd ' '
+done
 svg results/study/figures/split.svg | grep -E '[a-z]' | sort -u
 talus plot --format png,svg -o drawn -p over study.yaml
 talus plot -f pdf results/study/layers-4_pressure-hydrostatic-* -o one

@@ -74,6 +74,8 @@ struct content {
 	double left;        /* what x is shifted by */
 	double layer_error; /* of v in every layer, where v_steady is 1 */
 	double speed;       /* what max_speed is multiplied by */
+	double thickest;    /* at the end */
+	double farther;     /* of the front */
 	const char *host, *compiler;
 	enum run_status status;
 };
@@ -102,8 +104,10 @@ static void add_scale(struct image *image, const char *name, size_t count, const
 static void add_content(struct image *image, const struct content *content, size_t cells)
 {
 	static const double time[] = {0, 0.15, 0.3}, profile_time[] = {0.1, 0.3};
-	static const double front[] = {0, 0.5, 1.25}, cpu[] = {0, 1, 2};
+	static const double cpu[] = {0, 1, 2};
 	static const double residual[] = {0, 3.4e-9, 1.2e-9};
+	const double front[] = {0, 0.5, 1.25 + content->farther},
+				 thickness[] = {9, 2, content->thickest};
 	double x[4];
 
 	assert_true(cells <= 4);
@@ -120,6 +124,7 @@ static void add_content(struct image *image, const struct content *content, size
 	add_scale(image, "x", cells, x);
 	add_series(image, "pressure_iterations", content->iterations);
 	add_series(image, "front_position", front);
+	add_series(image, "max_thickness", thickness);
 	add_series(image, "cpu_pressure", cpu);
 	add_series(image, "pressure_residual", residual);
 	image_dataset(image, &(struct image_data){.path = "h",
@@ -417,6 +422,35 @@ static void errors_against_a_finer_run_are_those_of_its_means(void **state)
 	experiment_clean(&experiment);
 }
 
+/* The bed is 1 m thick; fronts at 1.25 and 1.5 m; u is 2 and 5 m/s in the cell at 2 m. */
+static void a_deposit_is_told_by_its_height_its_growth_and_its_velocities(void **state)
+{
+	struct experiment experiment =
+		read_experiment("base: base.yaml\nset: {layers: 2}\nruns: [{slope: [1 deg, 2 deg]}]\n"
+						"tables: [{name: t, rows: slope, reference: {slope: 1 deg}, at: 0.3 s, "
+						"at_x: [2.4 m, 1 m],\n"
+						"  metric: [deposit-height, runout-change, mean-velocity]}]\n");
+	struct content first = complete(1, 1), second = complete(1, 1);
+
+	(void)state;
+	first.thickest = 1.5;
+	second.thickest = 1.25;
+	second.farther = 0.25;
+	memcpy(second.u, (double[]){0, 0, 2, 0, 0, 1, 5, 0}, 8 * sizeof *second.u);
+	make_run(&experiment.runs[0], &first);
+	make_run(&experiment.runs[1], &second);
+	assert_table(&experiment, "text",
+		"t\n"
+		"\n"
+		"       height of deposit m  change of runout %   mean velocity m/s\n"
+		"                                                      at 0.3 s\n"
+		"slope                                           at_x 2.4 m  at_x 1 m\n"
+		"--------------------------------------------------------------------\n"
+		"1 deg               0.5000                 0.0       0.000     0.000\n"
+		"2 deg               0.2500                20.0       3.500     0.500\n" NOTES);
+	experiment_clean(&experiment);
+}
+
 /* Prints the table, whose missing cells are for this reason. */
 static void assert_missing(const struct experiment *experiment, const char *reason)
 {
@@ -426,6 +460,19 @@ static void assert_missing(const struct experiment *experiment, const char *reas
 	if (!strstr(text_string(&missing), reason))
 		fail_msg("no '%s' in: %s", reason, text_string(&missing));
 	text_clean(&missing);
+}
+
+static void a_place_outside_the_domain_is_refused(void **state)
+{
+	struct experiment experiment =
+		read_experiment("base: base.yaml\nset: {layers: 2}\n"
+						"tables: [{name: t, rows: slope, metric: mean-velocity, at_x: 4 m}]\n");
+	struct content content = complete(1, 1);
+
+	(void)state;
+	make_run(&experiment.runs[0], &content);
+	assert_missing(&experiment, ": mean-velocity: x = 4 m lies outside the domain\n");
+	experiment_clean(&experiment);
 }
 
 static void a_reference_whose_grid_does_not_fit_is_refused(void **state)
@@ -754,6 +801,8 @@ int main(void)
 		TEST(repeats_make_a_median_and_half_their_range),
 		TEST(a_metric_is_what_its_run_file_says),
 		TEST(differences_are_relative_to_the_mass_above_the_bed),
+		TEST(a_deposit_is_told_by_its_height_its_growth_and_its_velocities),
+		TEST(a_place_outside_the_domain_is_refused),
 		TEST(errors_against_steady_profiles_have_orders_from_row_to_row),
 		TEST(errors_against_a_finer_run_are_those_of_its_means),
 		TEST(a_reference_whose_grid_does_not_fit_is_refused),
