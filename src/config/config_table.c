@@ -50,6 +50,8 @@ static const char *const givens[] = {[GIVEN_SAME] = "same", [GIVEN_LOCAL] = "loc
 	[GIVEN_CARTESIAN] = "cartesian", NULL};
 static const char *const topographies[] = {[TOPOGRAPHY_PLANE] = "plane",
 	[TOPOGRAPHY_BUMP] = "bump", [TOPOGRAPHY_RANDOM] = "random", [TOPOGRAPHY_FILE] = "file", NULL};
+static const char *const exchanges[] = {
+	[EXCHANGE_MEAN] = "mean", [EXCHANGE_UPWIND] = "upwind", NULL};
 static const char *const frictions[] = {
 	[FRICTION_VISCOUS] = "viscous", [FRICTION_COULOMB] = "coulomb", NULL};
 static const char *const thicknesses[] = {
@@ -226,6 +228,9 @@ static const struct field fields[] = {
 		reconstructions,
 		"where friction balances the slope in P1 (21): static: only at rest; printed: also in motion; "
 		"creeping: as printed below 100 delta, else static; heaps keep their shape best with it"),
+	CHOICE("scheme.exchange", scheme.exchange, DRY, "mean", exchanges,
+		"velocity of what two layers exchange: the mean of both (P1), or of the layer that gives (upwind), which "
+		"hydrostatic layers need to survive a bore"),
 	CHOICE("scheme.friction", scheme.friction, DRY, "viscous", frictions,
 		"viscous: implicit with a regularised viscosity (P1 23-25); coulomb: slows one layer down or stops it "
 		"(P2 step 2)"),

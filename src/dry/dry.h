@@ -52,6 +52,7 @@ struct dry_parameters {
 	bool fastest;                         /* wave speed: max over the layers, not the mean */
 	int viscosity_updates;                /* times that step 2 is done again */
 	int reconstruction;                   /* enum reconstruction_kind: where dC balances */
+	bool upwind;                          /* layers exchange the velocity of the one that gives */
 	bool coulomb;                         /* friction slows down or stops one layer (P2) */
 	bool plain_thickness;                 /* friction is carried by h, not by P1 (25) */
 	bool non_hydrostatic;

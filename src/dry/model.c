@@ -44,6 +44,7 @@ static struct dry_parameters parameters(const struct config *config)
 		.static_speed = config->output.static_speed,
 		.fastest = config->time.wave_speed == WAVE_SPEED_FASTEST,
 		.reconstruction = config->scheme.friction_reconstruction,
+		.upwind = config->scheme.exchange == EXCHANGE_UPWIND,
 		.coulomb = config->scheme.friction == FRICTION_COULOMB,
 		.plain_thickness = config->scheme.friction_thickness == THICKNESS_PLAIN,
 		.viscosity_updates = config->scheme.viscosity_updates,
