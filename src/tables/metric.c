@@ -232,8 +232,8 @@ done:
 
 /* The first and the greatest velocity of the front, and when it has that. At the release it jumps to the
  * next cell, which is no flow. */
-static int front_peak(const struct sample *sample, double *first, double *velocity, double *when,
-	struct error *err)
+static int front_peak(
+	const struct sample *sample, double *first, double *velocity, double *when, struct error *err)
 {
 	const double settled = 0.04; /* s: the window of 0.02 s has left the release behind */
 	struct dataset time = {0}, front = {0};
