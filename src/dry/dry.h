@@ -50,10 +50,10 @@ struct dry_parameters {
 	double cfl;
 	double front_threshold, static_speed; /* m, m/s */
 	bool fastest;                         /* wave speed: max over the layers, not the mean */
-	int viscosity_updates;                /* times that step 2 is done again */
 	int reconstruction;                   /* enum reconstruction_kind: where dC balances */
 	bool upwind;                          /* layers exchange the velocity of the one that gives */
 	bool coulomb;                         /* friction slows down or stops one layer (P2) */
+	int viscosity_updates;                /* times that step 2 is done again */
 	bool plain_thickness;                 /* friction is carried by h, not by P1 (25) */
 	bool non_hydrostatic;
 };
