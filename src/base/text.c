@@ -146,7 +146,7 @@ char *text_excerpt(const char *string, char *buffer, size_t size)
 char *text_tame(char *string)
 {
 	for (char *c = string; c && *c; c++)
-		if (iscntrl((unsigned char)*c) && *c != '\n' && *c != '\t')
+		if (iscntrl((unsigned char)*c) && *c != '\n' && *c != '\t' && (*c != '\r' || c[1] != '\n'))
 			*c = '?';
 	return string;
 }

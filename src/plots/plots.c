@@ -48,8 +48,8 @@ static void drawings_clean(struct drawing *drawings, size_t count)
 	}
 }
 
-static int drawings_open(unsigned formats, const char *name, struct drawing *drawings,
-	size_t *count, struct error *err)
+static int drawings_open(
+	unsigned formats, const char *name, struct drawing *drawings, size_t *count, struct error *err)
 {
 	*count = 0;
 	for (unsigned i = 0; i < FORMATS; i++) {
@@ -71,7 +71,8 @@ static int drawings_open(unsigned formats, const char *name, struct drawing *dra
 }
 
 /* What gnuplot drew takes the place of the figure that was there. */
-static int replace_file(struct plots_output *output, const struct drawing *drawing, struct error *err)
+static int replace_file(
+	struct plots_output *output, const struct drawing *drawing, struct error *err)
 {
 	const struct file_place place = {.folder = output->folder, .name = drawing->name};
 	struct file_part part = {0};

@@ -170,11 +170,11 @@ static int find_datasets(const struct run_sources *sources, bool columns, struct
 		TRY(run_file_scale_length(file, "x", 0, &cells, err));
 	for (char *name = list->data ? strtok_r(list->data, "\n", &rest) : NULL; name;
 		 name = strtok_r(NULL, "\n", &rest)) {
-		bool fits = columns
-						? slice_layer_axis(file, name + 1, err) &&
-							  slice_has_axis(file, name + 1, "profile_time", err) && cells <= 1
-						: slice_has_axis(file, name + 1, "time", err) && strncmp(name, "/cpu", 4) != 0 &&
-							  strcmp(name, "/time") != 0 && strcmp(name, "/dt") != 0;
+		bool fits = columns ? slice_layer_axis(file, name + 1, err) &&
+								  slice_has_axis(file, name + 1, "profile_time", err) && cells <= 1
+							: slice_has_axis(file, name + 1, "time", err) &&
+								  strncmp(name, "/cpu", 4) != 0 && strcmp(name, "/time") != 0 &&
+								  strcmp(name, "/dt") != 0;
 
 		if (fits && !strchr(name + 1, '/') && *count < FOUND_MAX)
 			names[(*count)++] = name + 1;

@@ -20,8 +20,7 @@ static bool axis_is(
 	return same;
 }
 
-bool slice_has_axis(
-	struct run_file *file, const char *name, const char *axis, struct error *err)
+bool slice_has_axis(struct run_file *file, const char *name, const char *axis, struct error *err)
 {
 	for (int i = 0; i < RANK_MAX; i++)
 		if (axis_is(file, name, i, axis, err))

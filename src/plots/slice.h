@@ -32,8 +32,7 @@ int slice_read(struct run_file *file, const char *name, const struct slice_place
 void slice_clean(struct slice *slice);
 
 /* Has the dataset an axis of this name? False with `err` set where it cannot be read. */
-bool slice_has_axis(
-	struct run_file *file, const char *name, const char *axis, struct error *err);
+bool slice_has_axis(struct run_file *file, const char *name, const char *axis, struct error *err);
 
 /* The name of the axis across the layers that a dataset has: "layer", "interface", NULL: none,
  * or `err` is set. */
