@@ -163,8 +163,8 @@ static void the_front_runs_downhill_and_farther_on_a_steeper_slope(void **state)
 static void a_column_on_a_rigid_plane_comes_to_rest_beyond_0_3_m(void **state)
 {
 	static const char *const layers[] = {"layers=1", "layers=2", "layers=10"};
-	static const char *const pressures[][2] = {{"pressure=non-hydrostatic", "time.cfl=0.3"},
-		{"pressure=hydrostatic", "time.cfl=0.1"}};
+	static const char *const pressures[][2] = {
+		{"pressure=non-hydrostatic", "time.cfl=0.3"}, {"pressure=hydrostatic", "time.cfl=0.1"}};
 
 	(void)state;
 	for (size_t i = 0; i < 6; i++) {
