@@ -29,7 +29,7 @@ static bool is_ours(const char *name)
 }
 
 /* Whether the folder holds only regular files of a run, and how many bytes. */
-static bool is_run_folder(const char *folder, double *bytes)
+static bool is_run_folder(const char *folder, double *bytes, struct error *err)
 {
 	struct dirent **entries = NULL;
 	struct stat st;
@@ -37,6 +37,8 @@ static bool is_run_folder(const char *folder, double *bytes)
 	int count = fd < 0 ? -1 : scandir(folder, &entries, NULL, NULL);
 	bool good = count >= 0;
 
+	if (fd >= 0 && count < 0 && errno == ENOMEM)
+		error_memory(err, sizeof *entries);
 	*bytes = 0;
 	for (int i = 0; i < count; i++) {
 		const char *name = entries[i]->d_name;
@@ -55,7 +57,8 @@ static bool is_run_folder(const char *folder, double *bytes)
 }
 
 /* Whether the name ends with digits of the hash of the config that lies in the folder. */
-static bool has_its_hash(const char *folder, const char *name, struct config *config)
+static bool has_its_hash(
+	const char *folder, const char *name, struct config *config, struct error *err)
 {
 	const char *digits = strrchr(name, '-');
 	struct text path = {0};
@@ -69,6 +72,8 @@ static bool has_its_hash(const char *folder, const char *name, struct config *co
 	if (good)
 		hash[strlen(digits + 1)] = '\0';
 	good = good && !strcmp(hash, digits + 1);
+	if (unreadable.code == EX_SOFTWARE)
+		*err = unreadable;
 	text_clean(&path);
 	return good;
 }
@@ -116,19 +121,20 @@ static int add(const struct experiment *experiments, size_t count, const char *n
 
 	if (asprintf(&leftover.folder, "%s/%s", experiments[0].folder, name) < 0)
 		return error_memory(err, strlen(name));
-	if (!is_run_folder(leftover.folder, &leftover.bytes) ||
-		!has_its_hash(leftover.folder, name, &config)) {
+	if (!is_run_folder(leftover.folder, &leftover.bytes, err) ||
+		!has_its_hash(leftover.folder, name, &config, err)) {
 		free(leftover.folder);
-		return 0;
+		return err->code ? -1 : 0;
 	}
 	items = realloc(out->items, (out->count + 1) * sizeof *items);
-	if (!items || is_beginning(experiments, count, &config, &beginning, err)) {
+	run_report_read(leftover.folder, &leftover.report);
+	if (!items || leftover.report.unknown ||
+		is_beginning(experiments, count, &config, &beginning, err)) {
 		free(leftover.folder);
 		out->items = items ? items : out->items;
 		return err->code ? -1 : error_memory(err, (out->count + 1) * sizeof *items);
 	}
 	out->items = items;
-	run_report_read(leftover.folder, &leftover.report);
 	if (leftover.report.state == RUN_STATE_RUNNING)
 		leftover.kept = "a process works on it";
 	else if (beginning && leftover.report.state != RUN_STATE_FAILED)

@@ -97,6 +97,10 @@ static void draw(struct watch *watch)
 		(void)snprintf(back, sizeof back, "\033[%dA\r", watch->drawn);
 	text_add(&out, back);
 	summarise(watch, &out);
+	if (out.failed) { /* the next drawing may succeed */
+		text_clean(&out);
+		return;
+	}
 	out.data[--out.length] = '\0';
 	start = strlen(back);
 	if (columns && out.length - start > (size_t)columns)
@@ -117,7 +121,7 @@ static void draw(struct watch *watch)
 }
 
 /* One line per run whose state has changed, and now and then one about the whole. */
-static void print_changes(struct watch *watch, enum run_state *before, double every)
+static int print_changes(struct watch *watch, enum run_state *before, double every)
 {
 	const struct campaign *campaign = watch->campaign;
 	struct text out = {0};
@@ -135,7 +139,7 @@ static void print_changes(struct watch *watch, enum run_state *before, double ev
 		summarise(watch, &out);
 		watch->told = clock_wall();
 	}
-	(void)command_print(&out);
+	return command_print(&out);
 }
 
 /* Not at every look: the whole cluster shares its answers. One that is not answered is of no interest here;
@@ -156,7 +160,8 @@ static bool is_over(const struct campaign *campaign)
 	return !campaign_count(campaign, TASK_WAITING) && !campaign_count(campaign, TASK_ELSEWHERE);
 }
 
-static int watch_campaign(struct watch *watch, double every, struct error *err)
+/* `*code` is that of a line that could not be printed. */
+static int watch_campaign(struct watch *watch, double every, int *code, struct error *err)
 {
 	struct campaign *campaign = watch->campaign;
 	size_t runs = campaign->experiment->run_count;
@@ -174,8 +179,8 @@ static int watch_campaign(struct watch *watch, double every, struct error *err)
 		if (terminal)
 			draw(watch);
 		else
-			print_changes(watch, before, every);
-		if (is_over(campaign))
+			*code = print_changes(watch, before, every);
+		if (*code || is_over(campaign))
 			break;
 		(void)nanosleep(&pause, NULL);
 		campaign_look(campaign);
@@ -191,12 +196,12 @@ static int watch_main(
 	struct campaign campaign;
 	struct watch watch = {.campaign = &campaign};
 	struct error err = {0};
-	int code;
+	int code = 0;
 
 	if (campaign_create(&campaign, experiment, &options, &err) ||
-		watch_campaign(&watch, arguments->every, &err))
+		watch_campaign(&watch, arguments->every, &code, &err))
 		code = command_fail(&err);
-	else
+	else if (!code)
 		code = campaign_code(&campaign);
 	campaign_clean(&campaign);
 	return code;

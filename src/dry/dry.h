@@ -51,7 +51,9 @@ struct dry_parameters {
 	double front_threshold, static_speed; /* m, m/s */
 	bool fastest;                         /* wave speed: max over the layers, not the mean */
 	int reconstruction;                   /* enum reconstruction_kind: where dC balances */
+	bool upwind;                          /* layers exchange the velocity of the one that gives */
 	bool coulomb;                         /* friction slows down or stops one layer (P2) */
+	int viscosity_updates;                /* times that step 2 is done again */
 	bool plain_thickness;                 /* friction is carried by h, not by P1 (25) */
 	bool non_hydrostatic;
 };
@@ -115,6 +117,7 @@ struct model_state {
 	const double *force; /* the pressure whose force is being added */
 	double *face[6];     /* scratch rows of faces, [faces] */
 	double *work;        /* scratch of friction, [layers][stride] */
+	double *before;      /* U before friction, [layers][stride]; NULL without viscosity_updates */
 	bool *dry;           /* [faces], q is 0 there */
 
 	const struct pressure_operator *operator_;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "case/turn.h"
 #include "config/quantity.h"
 #include "plots/meaning.h"
 #include "plots/slice.h"
@@ -245,6 +246,47 @@ static int add_slice(const struct kind_request *request, const struct kind_run *
 	return 0;
 }
 
+/* The thickness over x in the other coordinates, where the plot asks for them. */
+static int turn(const struct kind_request *request, const struct kind_run *run, const char *name,
+	const struct slice_place *place, struct slice *slice, struct error *err)
+{
+	int wanted = request->wanted->coordinates;
+	struct slice_place everywhere = *place;
+	struct slice b = {0};
+	struct config other;
+	struct grid onto;
+	double *turned = NULL, scale;
+
+	if (wanted == GIVEN_SAME || !run->config || strcmp(place->along, "x") != 0 ||
+		(wanted == GIVEN_CARTESIAN) == (run->config->coordinates == COORDINATES_CARTESIAN))
+		return 0;
+	if (strcmp(name, "h") != 0)
+		return error_set(
+			err, EX_DATAERR, "'%s' cannot be shown in other coordinates, only h can", name);
+	other = *run->config;
+	scale = wanted == GIVEN_CARTESIAN ? cos(other.slope) : 1 / cos(other.slope);
+	other.domain.x_min *= scale;
+	other.domain.x_max *= scale;
+	onto = grid_make(&other);
+	turned = malloc((size_t)onto.cells * sizeof *turned);
+	if (!turned)
+		return error_memory(err, (size_t)onto.cells * sizeof *turned);
+	if (slice_read(run->file, "b", &everywhere, &b, err) || b.count != slice->count ||
+		onto.cells != (int)slice->count ||
+		turn_profile(
+			run->config, slice->axis, b.values, slice->values, onto.cells, &onto, turned, err)) {
+		slice_clean(&b);
+		free(turned);
+		return error_set(err, EX_DATAERR, "the thickness is not as long as the bed");
+	}
+	slice_clean(&b);
+	free(slice->values);
+	slice->values = turned;
+	for (int i = 1; i <= onto.cells; i++)
+		slice->axis[i - 1] = grid_centre(&onto, i);
+	return 0;
+}
+
 /* Where a curve is cut out, and what the experiment says of it. */
 struct cut {
 	struct slice_place place;
@@ -258,7 +300,8 @@ static int add_cut(const struct kind_request *request, const struct kind_run *ru
 	struct curve *curve;
 	int result = -1;
 
-	if (slice_read(run->file, name, &cut->place, &slice, err)) {
+	if (slice_read(run->file, name, &cut->place, &slice, err) ||
+		turn(request, run, name, &cut->place, &slice, err)) {
 		slice_clean(&slice);
 		return lacks(request, run, err);
 	}

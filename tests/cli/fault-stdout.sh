@@ -27,6 +27,7 @@ talus campaign run --dry-run study.yaml
 talus campaign run study.yaml
 talus campaign status study.yaml
 talus campaign why study.yaml
+talus campaign watch study.yaml
 talus-tables study.yaml
 talus plot -f svg results/small
 END

@@ -7,12 +7,12 @@
 
 #include "fail_alloc.h"
 
-#define WRAP(type, name, parameters, arguments, failure) \
-	type __real_##name parameters; \
-	type __wrap_##name parameters; \
-	type __wrap_##name parameters \
-	{ \
-		return fails() ? (failure) : __real_##name arguments; \
+#define WRAP(type, name, parameters, arguments, failure)                                           \
+	type __real_##name parameters;                                                                 \
+	type __wrap_##name parameters;                                                                 \
+	type __wrap_##name parameters                                                                  \
+	{                                                                                              \
+		return fails() ? (failure) : __real_##name arguments;                                      \
 	}
 
 typedef int chooser(const struct dirent *);
@@ -23,7 +23,8 @@ WRAP(void *, calloc, (size_t count_, size_t size), (count_, size), NULL)
 WRAP(void *, realloc, (void *block, size_t size), (block, size), NULL)
 WRAP(char *, strdup, (const char *text), (text), NULL)
 WRAP(char *, strndup, (const char *text, size_t size), (text, size), NULL)
-WRAP(void *, tsearch, (const void *key, void **root, __compar_fn_t compare), (key, root, compare), NULL)
+WRAP(void *, tsearch, (const void *key, void **root, __compar_fn_t compare), (key, root, compare),
+	NULL)
 WRAP(int, scandir, (const char *path, struct dirent ***out, chooser *choose, order *compare),
 	(path, out, choose, compare), -1)
 

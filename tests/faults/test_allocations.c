@@ -26,7 +26,8 @@ static const struct way {
 	bool ours;                 /* no library's: then a crash is our own */
 	const char *talus;         /* in the place of the program's name */
 } ways[] = {
-	{"ours", "plain asan ubsan", 12, true, "FAIL_OURS=1 LD_PRELOAD=$TOOLS/fail_alloc.so command talus"},
+	{"ours", "plain asan ubsan", 12, true,
+		"FAIL_OURS=1 LD_PRELOAD=$TOOLS/fail_alloc.so command talus"},
 	{"all", "plain ubsan", 12, false, "LD_PRELOAD=$TOOLS/fail_alloc.so command talus"},
 	{"valgrind", "plain", 2, true,
 		"valgrind -q --error-exitcode=99 --leak-check=full --show-leak-kinds=definite,indirect "
@@ -46,7 +47,8 @@ static const struct command {
 		"talus run -q small.yaml -o run && talus diff run straight && "
 		"! grep -q started run/run.log"},
 	{"longer", "rm -rf run; cp -r straight run", "talus run -q small.yaml -s time.end=0.2 -o run",
-		"talus run -q small.yaml -s time.end=0.2 -o run && talus diff run long && talus verify run && "
+		"talus run -q small.yaml -s time.end=0.2 -o run && talus diff run long && talus verify run "
+		"&& "
 		"test $(grep -c started run/run.log) = 1"},
 	{"info", NULL, "talus info straight", "true"},
 	{"verify", NULL, "talus verify straight", "true"},
@@ -54,6 +56,8 @@ static const struct command {
 	{"dry-run", NULL, "talus campaign run --dry-run study.yaml", "true"},
 	{"status", NULL, "talus campaign status --json study.yaml", "true"},
 	{"why", NULL, "talus campaign why study.yaml layers-3", "true"},
+	{"watch", NULL, "talus campaign watch study.yaml", "true"},
+	{"prune", NULL, "talus campaign prune study.yaml -s rheology.mu_s=0.47 </dev/null", "true"},
 	{"tables", NULL, "talus tables study.yaml", "true"},
 	{"plot", NULL, "talus plot -f svg -o drawn straight", "! ls -A drawn | grep '^[.]'"},
 	{"figures", NULL, "talus plot -f svg -o drawn study.yaml", "! ls -A drawn | grep '^[.]'"},
@@ -76,9 +80,10 @@ static const char setup[] =
 	"cat >study.yaml <<END\n"
 	"base: small.yaml\n"
 	"runs: [{layers: [2, 3]}]\n"
-	"tables: [{name: t, rows: layers, metric: [steps, runout, l2-difference],\n"
+	"tables: [{name: t, rows: pressure, columns: layers, metric: [steps, runout, l2-difference],\n"
 	"          reference: {layers: 3}}]\n"
-	"plots: [{name: p, panels: [{kind: metric, x: layers, y: runout}, {kind: profile, y: h, at: all, lines: [layers, at]}]}]\n"
+	"plots: [{name: p, panels: [{kind: metric, x: layers, y: runout}, {kind: profile, y: h, at: "
+	"all, lines: [layers, at]}]}]\n"
 	"END\n"
 	"talus run -q small.yaml -o straight\n"
 	"talus run -q small.yaml -o long -s time.end=0.2\n"
@@ -148,8 +153,8 @@ static bool judge(const struct command *c, const struct way *way, const struct t
 	else if (c->prepare && !is_well_after(c))
 		fault = "what is left";
 	if (fault)
-		print_message("# %s, %s, allocation %s: %s is wrong; exit code %d: %s\n", c->name, way->name,
-			trial->n, fault, trial->code, err);
+		print_message("# %s, %s, allocation %s: %s is wrong; exit code %d: %s\n", c->name,
+			way->name, trial->n, fault, trial->code, err);
 	free(out);
 	free(err);
 	return !fault;
@@ -218,8 +223,8 @@ static void try_command(const struct command *c, const struct way *way)
 		try_each(c, way, reference, expected, count, stride, &tally);
 	else
 		try_forks(c, way, reference, expected, stride, &tally);
-	print_message("# %s, %s: %ld allocations, %ld of %ld trials told an error\n", c->name, way->name,
-		count, tally.told, tally.trials);
+	print_message("# %s, %s: %ld allocations, %ld of %ld trials told an error\n", c->name,
+		way->name, count, tally.told, tally.trials);
 	assert_int_equal(tally.faults, 0);
 	assert_true(tally.told > 0 || tally.trials < 4);
 	free(counted);
@@ -234,7 +239,8 @@ static void any_allocation_may_fail(void **state)
 	(void)state;
 	for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
 		for (size_t k = 0; k < sizeof ways / sizeof *ways; k++)
-			if ((!only || !strcmp(only, commands[i].name)) && (!way || !strcmp(way, ways[k].name)) &&
+			if ((!only || !strcmp(only, commands[i].name)) &&
+				(!way || !strcmp(way, ways[k].name)) &&
 				strstr(ways[k].builds, build ? build : "plain"))
 				try_command(&commands[i], &ways[k]);
 }
@@ -270,6 +276,7 @@ int main(int argc, char **argv)
 		return cmocka_run_group_tests(tests, NULL, NULL);
 	for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
 		for (size_t k = 0; k < sizeof ways / sizeof *ways; k++)
-			(void)printf("TALUS_ONLY=%s TALUS_WAY=%s %s\n", commands[i].name, ways[k].name, argv[0]);
+			(void)printf(
+				"TALUS_ONLY=%s TALUS_WAY=%s %s\n", commands[i].name, ways[k].name, argv[0]);
 	return 0;
 }

@@ -100,6 +100,31 @@ static void every_length_but_two_is_refused(void **state)
 	assert_int_equal(try_open("a/run.h5", &warning), EX_DATAERR);
 }
 
+/* What lost a piece in the middle ends in a trailer that is whole: its length gives it away, to those that
+ * read nothing else too. */
+static void a_piece_that_is_missing_is_seen_by_the_trailer(void **state)
+{
+	enum { PIECE = 512 };
+	size_t size = make_run();
+	unsigned char *bytes;
+	struct run_summary summary;
+	struct run_file *file = NULL;
+	struct error err = {0}, peeked = {0};
+
+	(void)state;
+	assert_int_equal(file_read(in_folder("a/run.h5"), &bytes, &size, &err), 0);
+	memmove(bytes + 4096, bytes + 4096 + PIECE, size - 4096 - PIECE);
+	assert_int_equal(file_replace(&(struct file_place){.folder = in_folder("a"), .name = "run.h5"},
+						 &(struct file_part){bytes, size - PIECE}, 1, &err),
+		0);
+	assert_int_equal(run_file_peek(in_folder("a/run.h5"), &summary, &peeked), -1);
+	assert_int_equal(peeked.code, EX_DATAERR);
+	assert_int_equal(run_file_open(in_folder("a/run.h5"), &file, NULL, &err), -1);
+	assert_int_equal(err.code, EX_DATAERR);
+	assert_non_null(strstr(err.text, "bytes and has"));
+	free(bytes);
+}
+
 static void bytes_behind_the_trailer_are_refused(void **state)
 {
 	struct error err = {0};
@@ -345,6 +370,7 @@ static void another_shape_and_config_are_told(void **state)
 	second = open_run("b");
 	assert_int_equal(compare_run_files(first, second, &out, &err), 0);
 	assert_non_null(strstr(text_string(&out), "config_hash: "));
+	assert_non_null(strstr(text_string(&out), "\nconfig layers: 2 -> 3\n"));
 	assert_non_null(strstr(text_string(&out), "/u: shape 2 x 2 x 4 -> 2 x 3 x 16"));
 	text_clean(&out);
 	run_file_close(first);
@@ -358,6 +384,7 @@ int main(void)
 		TEST(a_changed_byte_anywhere_is_seen),
 		TEST(every_byte_of_the_trailer_is_seen),
 		TEST(every_length_but_two_is_refused),
+		TEST(a_piece_that_is_missing_is_seen_by_the_trailer),
 		TEST(bytes_behind_the_trailer_are_refused),
 		TEST(what_is_no_run_file_is_refused),
 		TEST(a_right_digest_over_nonsense_is_no_crash),

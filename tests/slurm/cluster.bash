@@ -158,5 +158,6 @@ cluster_stop()
 	[[ ! $slurmctld_pid ]] || kill -KILL "$slurmctld_pid"
 	[[ ! $munged_pid ]] || kill "$munged_pid"
 	wait
+	[[ ! ${mounted:-} ]] || umount "$mounted"
 	rm -rf "$cluster"
 } 2>/dev/null

@@ -1,16 +1,21 @@
 #!/bin/bash
 # Campaigns on a real Slurm, which this test starts and stops (cluster.bash): throttle and split arrays,
-# time limit, requeue, preemption, a killed slurmd, a lost node, cancel and resubmission, failed runs;
-# all results equal those of the local executor bit for bit.
+# time limit, requeue, preemption, a killed slurmd, a lost node, cancel and resubmission, failed runs,
+# damaged run files, a full disk; all results equal those of the local executor bit for bit.
 #
 # usage: tests/slurm/slurm.sh      `talus` is taken from PATH. Exit codes: 0, 1.
 set -uo pipefail
 
+# A small disk takes a mount of our own.
+if [[ ! ${MOUNTED:-} ]] && unshare --mount true 2>/dev/null; then
+	MOUNTED=1 exec unshare --mount bash "$0"
+fi
 here=$(cd "$(dirname "$0")" && pwd -P)
 # shellcheck source=tests/slurm/cluster.bash
 source "$here/cluster.bash"
 exec 3>&2 # bash tells on 2 of every process that was killed
 local_pid=''
+mounted=''
 trap 'kill $local_pid 2>/dev/null; cluster_stop' EXIT
 
 # A path that no script would survive that did not quote it.
@@ -59,6 +64,11 @@ is_complete() # STUDY
 computes() # COUNT STUDY: so many of its runs hold their locks, and do some steps
 {
 	(($(count '^running' "$2") == $1)) && sleep 0.5
+}
+
+has_checkpoints() # STUDY: all of its runs do, from above step 0
+{
+	(($(find "results/$1" -name run.previous.h5 | wc -l) == $(count . "$1")))
 }
 
 at_work() # STUDY: all that is not complete computes, and something does
@@ -121,6 +131,16 @@ cat >longer.yaml <<'END1'
 base: base.yaml
 runs: [{time.end: [0.9 s, 1 s]}]
 END1
+cat >damaged.yaml <<'END1'
+base: base.yaml
+set: {time.end: 0.1 s}
+runs: [{layers: [3, 2]}]
+END1
+cat >full.yaml <<'END1'
+base: base.yaml
+set: {checkpoint.every_steps: 20}
+runs: [{layers: [8, 7]}]
+END1
 cat >broken.yaml <<'END1'
 base: base.yaml
 set: {pressure_solver: {method: block-gauss-seidel, max_iterations: 3}}
@@ -128,7 +148,7 @@ END1
 
 (
 	trap 'kill $!; wait; exit 1' TERM
-	for study in array storm limit; do
+	for study in damaged array full storm limit; do
 		talus campaign run -j 1 -o "local/$study" "$study.yaml" >/dev/null &
 		wait $! || exit 1
 	done
@@ -161,6 +181,47 @@ sed -i '$a slurm: {partition: none}' broken.yaml
 submit broken --retry 2
 (($? == 69)) && [[ $said == *'Invalid partition'* ]] || fail "no such partition: $said"
 pass "failed runs are submitted when asked for alone, and a refusal of sbatch is told"
+
+submit damaged || fail "$said"
+wait_for 60 is_complete damaged || fail "damaged: $(states damaged)"
+for file in results/damaged/*/run*.h5; do
+	truncate -s -100 "$file"
+done
+[[ $(states damaged | sort -u) == 'damaged - -' ]] || fail "damaged: $(states damaged)"
+submit damaged
+(($? == 65)) && ! submitted || fail "damaged runs are no reason to start anew without --retry: $said"
+submit damaged --retry 1 && submitted || fail "damaged runs are not submitted with --retry: $said"
+wait_for 60 is_complete damaged || fail "damaged: $(states damaged)"
+for run in results/damaged/layers-*; do
+	[[ -e $run/run.damaged.h5 && -e $run/run.previous.damaged.h5 ]] || fail "$(ls "$run"): what was damaged is not kept"
+	grep -q 'attempt 2: started' "$run/run.log" || fail "${run##*/} was not started anew"
+done
+pass "damaged runs are started anew with --retry alone, and what was damaged is kept"
+
+if [[ ${MOUNTED:-} ]]; then
+	mkdir -p results/full
+	mount -t tmpfs -o size=16m none results/full || fail "mount"
+	mounted=$PWD/results/full
+	submit full || fail "$said"
+	wait_for 60 at_work full && wait_for 20 has_checkpoints full || fail "full: $(states full)"
+	cat /dev/zero >results/full/filler 2>/dev/null
+	wait_for 60 is_over full || fail "a full disk: the tasks go on: $(states full)"
+	[[ $(states full | sort -u) == 'interrupted - -' ]] || fail "a full disk: $(states full)"
+	talus verify results/full >/dev/null || fail "a full disk: $(talus verify results/full)"
+	cat /dev/zero >results/full/rest 2>/dev/null # what the tasks gave back
+	submit full
+	code=$?
+	((code == 73 || code == 74)) && [[ $said == *'No space left'* ]] && ! submitted ||
+		fail "submitting on a full disk: exit code $code: $said"
+	rm results/full/filler results/full/rest
+	submit full || fail "a full disk used a try: $said"
+	[[ $said == *': 2 runs'* ]] || fail "after a full disk: $said"
+	wait_for 120 is_complete full || fail "full: $(states full)"
+	grep -h 'resumed at step' results/full/*/run.log | grep -qv 'step 0,' || fail "a full disk: not resumed"
+	pass "a full disk stops the tasks with their checkpoints whole and uses no try"
+else
+	echo "skipped: a full disk, as no mounts may be made here"
+fi
 
 talus campaign run -e slurm array.yaml >first 2>&1 &
 talus campaign run -e slurm array.yaml >second 2>&1
@@ -249,7 +310,10 @@ pass "a cancelled array stays away until it is submitted again"
 
 wait_for 120 is_complete limit || fail "limit: $(states limit)"
 wait "$local_pid" || fail "the local campaigns failed"
-for study in array limit storm; do
+for run in local/damaged/*; do
+	talus diff "$run" "results/damaged/${run##*/}" >/dev/null || fail "damaged: ${run##*/} differs"
+done
+for study in array limit storm ${MOUNTED:+full}; do
 	same_as_local "$study"
 done
 [[ ! $(find "$cluster" -name injected) ]] || fail "a path was run as a command"
