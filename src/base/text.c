@@ -150,7 +150,6 @@ char *text_tame(char *string)
 
 		if (iscntrl((unsigned char)*c) && !line_end && *c != '\t')
 			*c = '?';
-	}
 	return string;
 }
 
