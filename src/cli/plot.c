@@ -47,7 +47,12 @@ static int read_formats(const char *names, struct plot_options *options)
 		size_t length = strcspn(at, ",");
 		char *name = strndup(at, length);
 		unsigned format = name ? plots_format_find(name) : 0;
+		struct error err = {0};
 
+		if (!name) {
+			error_memory(&err, length);
+			return command_fail(&err);
+		}
 		if (!format) {
 			(void)command_usage("plot", "--format %s: known are svg, png and pdf", name);
 			free(name);

@@ -142,9 +142,12 @@ static int read_list(const struct field *field, const struct field_place *place,
 int points_convert(const struct field *field, const struct field_place *place, const char *beside,
 	struct real_list *list, struct error *err)
 {
-	struct points points = {.values = malloc(2 * POINTS_MAX * sizeof(double))};
+	struct points points = {0};
 	int status = -1;
 
+	if (place->node->kind == NODE_SEQUENCE && !place->node->count)
+		return real_list_keep(list, NULL, 0, err);
+	points.values = malloc(2 * POINTS_MAX * sizeof(double));
 	if (!points.values)
 		return error_memory(err, 2 * POINTS_MAX * sizeof(double));
 	if (place->node->kind == NODE_MAPPING)

@@ -26,6 +26,8 @@ static const struct known {
 	{"u", "velocity", "{/:Italic u}"},
 	{"w", "normal velocity", "{/:Italic w}"},
 	{"p", "pressure", "{/:Italic p}"},
+	{"strain_rate", "strain rate", "||{/:Italic D}||"},
+	{"mu", "friction coefficient", "{/:Italic μ}({/:Italic I})"},
 	{"front_position", "front position", "{/:Italic x}_f"},
 	{"front_velocity", "front velocity", "{/:Italic v}"},
 	{"max_speed", "greatest velocity", "{/:Italic u}_{max}"},
@@ -73,6 +75,7 @@ static const struct known {
 	{"front-velocity", "greatest front velocity", "{/:Italic v}"},
 	{"front-velocity-time", "time of the greatest front velocity", "{/:Italic t}"},
 	{"cpu-seconds", "CPU time", ""},
+	{"bagnold-error", "relative error of the velocity", ""},
 };
 
 static const struct known *find_known(const char *name)

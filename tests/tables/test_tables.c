@@ -157,6 +157,9 @@ static void add_layers(struct image *image, const struct content *content, size_
 	add_series(image, "max_speed", speed);
 	add_series(image, "fluid_transfer", transfer);
 	add_series(image, "solid_mass", mass);
+	add_series(image, "mass", (double[]){2, 1.5, 1});
+	add_series(image, "mass_outflow", (double[]){0, 0.5, 1 + ldexp(1, -50)});
+	add_series(image, "front_velocity", (double[]){2, 0.5, 0.75});
 	for (int k = 0; k < 2; k++)
 		image_dataset(image, &(struct image_data){.path = k ? "v" : "v_steady",
 								 .units = "m s-1",
@@ -539,6 +542,26 @@ static void numbers_of_series_are_those_of_the_whole_run(void **state)
 	experiment_clean(&experiment);
 }
 
+static void mass_drifts_by_what_did_not_leave_and_fronts_begin_after_the_release(void **state)
+{
+	struct experiment experiment =
+		read_experiment("base: base.yaml\nruns: [{layers: 2}]\ntables: [{name: t, rows: layers, "
+						"metric: [mass-drift, "
+						"first-front-velocity, front-velocity, front-velocity-time]}]\n");
+	struct content content = complete(1, 1);
+
+	(void)state;
+	make_run(&experiment.runs[0], &content);
+	/* 2 + 2^-50 for 2; of the velocities 2, 0.5, 0.75 at 0, 0.15, 0.3 the first is the jump from the gate */
+	assert_table(&experiment, "text",
+		"t\n"
+		"\n"
+		"layers  mass drift 1e-15  front at first m/s  fastest front m/s  fastest at s\n"
+		"-----------------------------------------------------------------------------\n"
+		"2                    0.4               0.500              0.750         0.300\n" NOTES);
+	experiment_clean(&experiment);
+}
+
 static void an_unfinished_run_is_missing_and_named(void **state)
 {
 	struct experiment e = read_experiment(
@@ -837,6 +860,7 @@ int main(void)
 		TEST(a_reference_whose_grid_does_not_fit_is_refused),
 		TEST(an_order_needs_another_grid_in_the_row_before),
 		TEST(numbers_of_series_are_those_of_the_whole_run),
+		TEST(mass_drifts_by_what_did_not_leave_and_fronts_begin_after_the_release),
 		TEST(an_unfinished_run_is_missing_and_named),
 		TEST(a_cell_keeps_the_median_of_the_repeats_that_are_there),
 		TEST(other_builds_and_machines_are_flagged_where_times_compare),
