@@ -150,6 +150,7 @@ char *text_tame(char *string)
 
 		if (iscntrl((unsigned char)*c) && !line_end && *c != '\t')
 			*c = '?';
+	}
 	return string;
 }
 
