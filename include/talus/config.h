@@ -23,6 +23,7 @@ enum shape_kind {
 enum coordinates_kind { COORDINATES_LOCAL, COORDINATES_CARTESIAN };
 enum given_kind { GIVEN_SAME, GIVEN_LOCAL, GIVEN_CARTESIAN };
 enum topography_kind { TOPOGRAPHY_PLANE, TOPOGRAPHY_BUMP, TOPOGRAPHY_RANDOM, TOPOGRAPHY_FILE };
+enum exchange_kind { EXCHANGE_MEAN, EXCHANGE_UPWIND };
 enum friction_kind { FRICTION_VISCOUS, FRICTION_COULOMB };
 enum thickness_kind { THICKNESS_WELL_BALANCED, THICKNESS_PLAIN };
 enum law_kind { LAW_MU_I, LAW_CONSTANT, LAW_LINEAR };
@@ -136,8 +137,10 @@ struct config {
 	} time;
 	struct {
 		int friction_reconstruction; /* enum reconstruction_kind: where dC of P1 (21) balances */
+		int exchange;                /* enum exchange_kind: velocity of what layers exchange */
 		int friction;                /* enum friction_kind: how step 2 takes it */
 		int friction_thickness;      /* enum thickness_kind: what carries the friction, P1 (25) */
+		int viscosity_updates;       /* coefficients of step 2 taken anew, times per step */
 	} scheme;
 	struct {
 		int method;         /* enum method_kind */

@@ -92,6 +92,7 @@ struct experiment_panel {
 	struct term units[2];       /* of x and y; text NULL: SI */
 	const char *labels[2];      /* of x and y; "": made from what is drawn */
 	bool dimensionless;         /* lengths by h_0, times by tau_c, velocities by v_0 */
+	int coordinates;            /* enum given_kind: of thicknesses over x */
 	bool above_bed;             /* the thickness without the erodible bed */
 	struct setting_list baseline, reference, only; /* as those of a table */
 	const struct node *names;                      /* legend names of values, NULL: none */

@@ -142,6 +142,14 @@ static int read_dimensionless(const struct reader *reader, const struct node *no
 	return reader_bool(reader, node, &panel_of(target)->dimensionless);
 }
 
+static int read_coordinates(const struct reader *reader, const struct node *node, void *target)
+{
+	static const char *const names[] = {
+		[GIVEN_SAME] = "same", [GIVEN_LOCAL] = "local", [GIVEN_CARTESIAN] = "cartesian", NULL};
+
+	return reader_choice(reader, node, names, &panel_of(target)->coordinates);
+}
+
 static int read_above_bed(const struct reader *reader, const struct node *node, void *target)
 {
 	return reader_bool(reader, node, &panel_of(target)->above_bed);
@@ -309,6 +317,9 @@ static int read_panels(const struct reader *reader, const struct node *node, voi
 		{"reference", read_reference, "as in a table, for the metrics that compare"},              \
 		{"dimensionless", read_dimensionless,                                                      \
 			"true: lengths over h_0, times over tau_c, velocities over v_0 (P1)"},                 \
+		{"coordinates", read_coordinates,                                                          \
+			"local or cartesian: h over x as a run in these would have it (default: same, as it "  \
+			"is)"},                                                                                \
 		{"above_bed", read_above_bed, "true: h without the erodible bed layer"},                   \
 		{"log", read_log, "`x`, `y` or both"},                                                     \
 		{"x_range", read_x_range, "`[from, to]` in the unit of the axis"},                         \

@@ -1,6 +1,9 @@
 #include "case/turn.h"
 
 #include <math.h>
+#include <stdlib.h>
+
+#include "case/topography.h"
 
 /* In long double, as cos in double is chosen by processor and differs in bits. */
 struct turn turn_to_local(double slope)
@@ -55,11 +58,36 @@ bool turn_reaches(const struct turn *turn, const double *x, const double *d, int
 
 	for (int k = 0; k + 1 < count; k++)
 		if (turned_x(turn, x[k + 1], d[k + 1]) < turned_x(turn, x[k], d[k])) {
-			*at = x[k];
+			*at = 0.5 * (x[k] + x[k + 1]);
 			return false;
 		}
 	*at = NAN;
 	return turned_x(turn, x[0], d[0]) <= grid->x_min + rounding &&
 		   turned_x(turn, x[count - 1], d[count - 1]) >=
 			   grid->x_min + grid->cells * grid->dx - rounding;
+}
+
+int turn_profile(const struct config *config, const double *x, const double *b, const double *h,
+	int cells, const struct grid *onto, double *out, struct error *err)
+{
+	bool cartesian = config->coordinates == COORDINATES_CARTESIAN;
+	struct turn turn = cartesian ? turn_to_local(config->slope) : turn_to_cartesian(config->slope);
+	size_t size = 2 * (size_t)cells + 2 * onto->stride;
+	double *bed = calloc(size, sizeof *bed), *surface, *below, *above;
+
+	if (!bed)
+		return error_memory(err, size * sizeof *bed);
+	surface = bed + cells;
+	below = surface + cells;
+	above = below + onto->stride;
+	for (int i = 0; i < cells; i++) {
+		bed[i] = b[i] - (cartesian ? topography_plane(config, x[i]) : 0);
+		surface[i] = bed[i] + h[i];
+	}
+	turn_add(&turn, x, bed, cells, onto, below);
+	turn_add(&turn, x, surface, cells, onto, above);
+	for (int i = 1; i <= onto->cells; i++)
+		out[i - 1] = above[i] - below[i];
+	free(bed);
+	return 0;
 }

@@ -25,4 +25,9 @@ void turn_add(const struct turn *turn, const double *x, const double *d, int cou
 bool turn_reaches(const struct turn *turn, const double *x, const double *d, int count,
 	const struct grid *grid, double *at);
 
+/* A profile of a run of `config` in the other coordinates: from the recorded bed `b` and thickness `h` at `cells`
+ * positions, which becomes the means over the cells of `onto`, [onto->cells], m. EX_SOFTWARE. */
+int turn_profile(const struct config *config, const double *x, const double *b, const double *h,
+	int cells, const struct grid *onto, double *out, struct error *err);
+
 #endif

@@ -50,6 +50,8 @@ static const char *const givens[] = {[GIVEN_SAME] = "same", [GIVEN_LOCAL] = "loc
 	[GIVEN_CARTESIAN] = "cartesian", NULL};
 static const char *const topographies[] = {[TOPOGRAPHY_PLANE] = "plane",
 	[TOPOGRAPHY_BUMP] = "bump", [TOPOGRAPHY_RANDOM] = "random", [TOPOGRAPHY_FILE] = "file", NULL};
+static const char *const exchanges[] = {
+	[EXCHANGE_MEAN] = "mean", [EXCHANGE_UPWIND] = "upwind", NULL};
 static const char *const frictions[] = {
 	[FRICTION_VISCOUS] = "viscous", [FRICTION_COULOMB] = "coulomb", NULL};
 static const char *const thicknesses[] = {
@@ -226,11 +228,17 @@ static const struct field fields[] = {
 		reconstructions,
 		"where friction balances the slope in P1 (21): static: only at rest; printed: also in motion; "
 		"creeping: as printed below 100 delta, else static; heaps keep their shape best with it"),
+	CHOICE("scheme.exchange", scheme.exchange, DRY, "mean", exchanges,
+		"velocity of what two layers exchange: the mean of both (P1), or of the layer that gives (upwind), which "
+		"hydrostatic layers need to survive a bore"),
 	CHOICE("scheme.friction", scheme.friction, DRY, "viscous", frictions,
 		"viscous: implicit with a regularised viscosity (P1 23-25); coulomb: slows one layer down or stops it "
 		"(P2 step 2)"),
 	CHOICE("scheme.friction_thickness", scheme.friction_thickness, DRY, "well-balanced", thicknesses,
 		"thickness that carries the friction: well-balanced: P1 (25); plain: h (P1 Table 6b)"),
+	INTEGER(scheme.viscosity_updates, DRY, "0", "[0, 100]",
+		"how often step 2 is done again with the viscosity of its own result; 0: frozen as P1; with "
+		"1 or 2 hydrostatic runouts hardly depend on time.cfl"),
 
 	GROUP(pressure_solver, DRY, "the linear system of the non-hydrostatic pressure"),
 	CHOICE("pressure_solver.method", pressure_solver.method, DRY, "auto", methods,

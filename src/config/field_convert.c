@@ -134,8 +134,8 @@ static int convert_field(
 
 	if (!place->source)
 		return convert_default(reader->table, field, target, err);
-	if (convert_value(field, place, reader->all.source->name, (char *)target + field->offset,
-			err) == 0)
+	if (convert_value(
+			field, place, reader->all.source->name, (char *)target + field->offset, err) == 0)
 		return 0;
 	(void)error_context(err, "%s", field->name);
 	return err->file[0] ? -1 : field_set_place(place->source, place->node, err);

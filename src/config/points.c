@@ -14,6 +14,7 @@ enum { BYTES_MAX = 1 << 20 };
 struct points {
 	double *values; /* [2 POINTS_MAX] */
 	int count;      /* of values */
+	int column;     /* of the line of a file that is being read */
 };
 
 static int check_order(const struct points *points, struct error *err)
@@ -34,7 +35,7 @@ static int check_room(const struct points *points, struct error *err)
 	return error_set(err, EX_DATAERR, "more than %d points", POINTS_MAX);
 }
 
-/* "0.5 1.25" or "0.5, 1.25"; the error has no place but for the column. */
+/* "0.5 1.25" or "0.5, 1.25"; the error has no place. */
 static int read_line(struct points *points, char *line, struct error *err)
 {
 	static const char blanks[] = " \t\r,;";
@@ -45,7 +46,7 @@ static int read_line(struct points *points, char *line, struct error *err)
 		return 0;
 	TRY(check_room(points, err));
 	for (; word && *word != '#'; word = strtok_r(NULL, blanks, &rest), words++) {
-		err->column = (int)(word - line) + 1;
+		points->column = (int)(word - line) + 1;
 		if (words == 2)
 			return error_set(err, EX_DATAERR, "a third value: a line holds x and one value");
 		if (!text_to_real(word, &points->values[points->count++]))
@@ -53,7 +54,7 @@ static int read_line(struct points *points, char *line, struct error *err)
 				"'%s' is not a number; a line holds x and one value in m, or begins with #",
 				text_excerpt(word, shown, sizeof shown));
 	}
-	err->column = 1;
+	points->column = 1;
 	if (words == 1)
 		return error_set(err, EX_DATAERR, "a value is missing: a line holds x and one value");
 	return check_order(points, err);
@@ -69,11 +70,9 @@ static int read_text(struct points *points, const char *path, char *text, struct
 		next = strchr(line, '\n');
 		if (next)
 			*next++ = '\0';
-		if (read_line(points, line, &here) != 0) {
-			int column = (int)here.column;
-
-			return error_at(err, EX_DATAERR, path, number, column, "%s", here.text);
-		}
+		points->column = 1;
+		if (read_line(points, line, &here) != 0)
+			return error_at(err, EX_DATAERR, path, number, points->column, "%s", here.text);
 	}
 	return 0;
 }
@@ -104,7 +103,8 @@ static int read_file(struct points *points, const char *beside, const char *name
 		status = read_text(points, text_string(&path), text, err);
 		if (!status && points->count < 4)
 			status = error_at(err, EX_DATAERR, text_string(&path), 0, 0,
-				"%d points; a profile has two at least", points->count / 2);
+				"%s; a profile has two points at least",
+				points->count ? "one point" : "nothing in it");
 	}
 	text_clean(&path);
 	free(text);
@@ -135,16 +135,19 @@ static int read_list(const struct field *field, const struct field_place *place,
 		if (read_pair(field, &node->items[i], points, err) != 0)
 			return field_set_place(place->source, &node->items[i], err);
 	if (node->count == 1)
-		return error_set(err, EX_DATAERR, "one point; a profile has two at least");
+		return error_set(err, EX_DATAERR, "one point; a profile has two points at least");
 	return 0;
 }
 
 int points_convert(const struct field *field, const struct field_place *place, const char *beside,
 	struct real_list *list, struct error *err)
 {
-	struct points points = {malloc(2 * POINTS_MAX * sizeof(double)), 0};
+	struct points points = {0};
 	int status = -1;
 
+	if (place->node->kind == NODE_SEQUENCE && !place->node->count)
+		return real_list_keep(list, NULL, 0, err);
+	points.values = malloc(2 * POINTS_MAX * sizeof(double));
 	if (!points.values)
 		return error_memory(err, 2 * POINTS_MAX * sizeof(double));
 	if (place->node->kind == NODE_MAPPING)

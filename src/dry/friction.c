@@ -324,9 +324,21 @@ KERNEL static void friction(struct model_state *s, struct chunk chunk, double dt
 	}
 }
 
+/* With the coefficients of t^n a resting cell takes up speed only step by step, and a moving one is braked by
+ * the speed that it had: fronts then depend on the time step. The system solved again with the coefficients of
+ * its own result is a fixed-point iteration towards the implicit step, which leaves at rest what rests. */
 void dry_friction(struct model_state *s, double dt)
 {
+	size_t bytes = (size_t)s->layers * s->grid.stride * sizeof *s->U;
+
+	if (s->before)
+		memcpy(s->before, s->U, bytes);
 	chunk_each(s, friction, dt);
+	for (int i = 0; i < s->par.viscosity_updates; i++) {
+		dry_velocities(s);
+		memcpy(s->U, s->before, bytes);
+		chunk_each(s, friction, dt);
+	}
 }
 
 /* One interface of P1 Theorem 1: that below layer `a`, W/m2. */

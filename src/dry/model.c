@@ -44,8 +44,10 @@ static struct dry_parameters parameters(const struct config *config)
 		.static_speed = config->output.static_speed,
 		.fastest = config->time.wave_speed == WAVE_SPEED_FASTEST,
 		.reconstruction = config->scheme.friction_reconstruction,
+		.upwind = config->scheme.exchange == EXCHANGE_UPWIND,
 		.coulomb = config->scheme.friction == FRICTION_COULOMB,
 		.plain_thickness = config->scheme.friction_thickness == THICKNESS_PLAIN,
+		.viscosity_updates = config->scheme.viscosity_updates,
 		.non_hydrostatic = config->pressure == PRESSURE_NON_HYDROSTATIC,
 	};
 }
@@ -63,7 +65,7 @@ static double *place(double **next, size_t count)
 static size_t layout(struct model_state *s, bool cartesian, double *memory)
 {
 	size_t stride = s->grid.stride, faces = (size_t)s->grid.faces, n = (size_t)s->layers;
-	size_t coarse = (size_t)s->coarse.layers;
+	size_t coarse = (size_t)s->coarse.layers, before = s->par.viscosity_updates > 0 ? n : 0;
 	double *next = memory;
 
 	s->h = place(&next, stride);
@@ -83,13 +85,17 @@ static size_t layout(struct model_state *s, bool cartesian, double *memory)
 	for (size_t i = 0; i < sizeof s->face / sizeof *s->face; i++)
 		s->face[i] = place(&next, faces);
 	s->work = place(&next, n * stride);
+	s->before = before ? place(&next, before * stride) : NULL;
 	s->level = place(&next, n + 1);
 	s->x = place(&next, stride);
 	s->layer_middle = place(&next, n);
 	s->layer_interface = place(&next, n + 1);
+	s->steady_u = place(&next, n);
+	s->steady_strain = place(&next, n + 1);
+	s->steady_mu = place(&next, n + 1);
 	s->coarse.u = coarse ? place(&next, coarse * stride) : NULL;
 	s->coarse.w = coarse ? place(&next, coarse * stride) : NULL;
-	return (7 + cartesian + 5 * n + 2 * coarse) * stride + (6 + 2 * n) * faces + 3 * n + 4;
+	return (7 + cartesian + 5 * n + before + 2 * coarse) * stride + (6 + 2 * n) * faces + 6 * n + 6;
 }
 
 static int projection_init(struct model_state *s, const struct config *config,
@@ -165,6 +171,8 @@ static int fill(struct model_state *s, const struct config *config, struct error
 		mass += s->h[i];
 	}
 	s->mass[0] = s->par.rho * mass * s->grid.dx;
+	dry_exact(s, config->initial.shape == SHAPE_UNIFORM ? s->h[1] : NAN, s->steady_u,
+		s->steady_strain, s->steady_mu);
 	if (config->gate.speed != 0)
 		open_gate(s, config);
 	return 0;
@@ -395,6 +403,7 @@ static size_t arrays(struct model_state *s, struct array *list)
 const struct model dry_model = {
 	.name = "dry",
 	.numerics_version = 3,
+	.remedy = "a lower time.cfl may carry it",
 	.series = dry_series,
 	.series_count = DRY_SERIES_COUNT,
 	.profiles = dry_profiles,

@@ -162,9 +162,10 @@ KERNEL_PART void limit_outflow(const struct model_state *s, double dt, struct wi
 
 /* One component (`v` is u_a or w_a) of one layer at the faces of a chunk: the numerical flux, and
  * (B + S)/2. `n` is 1/l_a; `top`, `bottom` are the rows above and below (their own row at the surface
- * and the bed, where the exchange is zero anyway), `above`, `below` the jumps of G there. */
-KERNEL_PART void layer_fluxes(const struct window *r, int at, int faces, double n, bool along,
-	const double *restrict h, const double *restrict u, const double *restrict v,
+ * and the bed, where the exchange is zero anyway), `above`, `below` the jumps of G there. What is exchanged has the
+ * velocity of both layers, or with `upwind` that of the one which it leaves. */
+KERNEL_PART void layer_fluxes(const struct window *r, bool upwind, int at, int faces, double n,
+	bool along, const double *restrict h, const double *restrict u, const double *restrict v,
 	const double *restrict bottom, const double *restrict top, const double *restrict below,
 	const double *restrict above, double *restrict flux, double *restrict half)
 {
@@ -178,7 +179,10 @@ KERNEL_PART void layer_fluxes(const struct window *r, int at, int faces, double 
 		double fi = h[i] * u[i] * v[i], fj = h[j] * u[j] * v[j];
 		double v_up = 0.25 * (v[i] + v[j] + top[i] + top[j]);
 		double v_down = 0.25 * (v[i] + v[j] + bottom[i] + bottom[j]);
-		double exchange = -n * (v_up * above[f] - v_down * below[f]);
+		double own = 0.5 * (v[i] + v[j]);
+		double up = upwind ? (above[f] > 0 ? 0.5 * (top[i] + top[j]) : own) : v_up;
+		double down = upwind ? (below[f] > 0 ? own : 0.5 * (bottom[i] + bottom[j])) : v_down;
+		double exchange = -n * (up * above[f] - down * below[f]);
 		double diffusion = alpha0[f] * (right[f] * v[j] - left[f] * v[i]) +
 						   alpha1[f] * (fj - fi + exchange + (along ? rest[f] : 0));
 
@@ -204,7 +208,7 @@ KERNEL_PART void advance(int cells, double ratio, const double *restrict flux,
 
 /* All layers of the chunk, from the bottom. */
 KERNEL_PART void advance_layers(
-	struct model_state *s, const struct window *r, struct chunk chunk, double dt)
+	struct model_state *s, bool upwind, const struct window *r, struct chunk chunk, double dt)
 {
 	size_t stride = s->grid.stride, left = (size_t)chunk.first - 1; /* of the first face */
 	double jumps[2][ROW] = {0}, flux[ROW] = {0}, half[ROW] = {0};
@@ -226,13 +230,13 @@ KERNEL_PART void advance_layers(
 			add_jump(faces, n, h, u, s->mean + left, below, above);
 		else
 			memset(above, 0, sizeof jumps[0]); /* exactly 0 at the surface */
-		layer_fluxes(
-			r, at, faces, n, true, h, u, u, s->u + down, s->u + up, below, above, flux, half);
+		layer_fluxes(r, upwind, at, faces, n, true, h, u, u, s->u + down, s->u + up, below, above,
+			flux, half);
 		advance(cells, ratio, flux, half, s->U + row + 1);
 		if (!s->par.non_hydrostatic)
 			continue;
-		layer_fluxes(
-			r, at, faces, n, false, h, u, w, s->w + down, s->w + up, below, above, flux, half);
+		layer_fluxes(r, upwind, at, faces, n, false, h, u, w, s->w + down, s->w + up, below, above,
+			flux, half);
 		advance(cells, ratio, flux, half, s->W + row + 1);
 		force_add_layer(s, &force, chunk, a, s->q, dt);
 	}
@@ -293,7 +297,10 @@ KERNEL static void transport(struct model_state *s, struct chunk chunk, double d
 	r.ends[1] = s->grid.periodic && last > s->grid.cells ? end_pays(s, 1, dt) : 1;
 	fill_window(s, dt, &r);
 	limit_outflow(s, dt, &r);
-	advance_layers(s, &r, chunk, dt);
+	if (s->par.upwind)
+		advance_layers(s, true, &r, chunk, dt);
+	else
+		advance_layers(s, false, &r, chunk, dt);
 	advance_thickness(s, &r, chunk, dt);
 }
 

@@ -7,7 +7,7 @@
 
 #include "talus/error.h"
 
-struct array {
+struct arrays_part {
 	void *pointer; /* the address of a pointer to its first element */
 	size_t bytes;
 };
@@ -18,7 +18,8 @@ struct array {
 		&(pointer), (count) * sizeof *(pointer)                                                    \
 	}
 
-/* Allocate arrays of zeros. `block` is what the caller frees. EX_SOFTWARE out of memory. */
-int arrays_allocate(const struct array *arrays, void **block, struct error *err);
+/* Allocate arrays of zeros. `block` is what the caller frees. EX_SOFTWARE out of memory, which
+ * leaves *block NULL. */
+int arrays_allocate(const struct arrays_part *arrays, void **block, struct error *err);
 
 #endif

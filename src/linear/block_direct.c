@@ -35,11 +35,11 @@ static int create(
 	if (!m)
 		return error_memory(err, sizeof *m);
 	if (elimination_init(&m->elimination, layers, faces, err) != 0 ||
-		arrays_allocate((struct array[]){ARRAY(m->start, all), ARRAY(m->right, all),
+		arrays_allocate((struct arrays_part[]){ARRAY(m->start, all), ARRAY(m->right, all),
 							ARRAY(m->given, all), ARRAY(m->sums, (size_t)columns.groups), {0}},
 			&m->block, err) != 0) {
 		destroy(m);
-		return -1;
+		return pressure_solver_too_large(block_direct.name, layers, faces, err);
 	}
 	*out = m;
 	return 0;

@@ -28,9 +28,9 @@ static int create(
 	(void)options;
 	if (!factors)
 		return error_memory(err, sizeof *factors);
-	if (arrays_allocate(
-			(struct array[]){ARRAY(factors->inverse, count), ARRAY(factors->multiplier, count),
-				ARRAY(factors->ratio, count), ARRAY(factors->right, (size_t)faces), {0}},
+	if (arrays_allocate((struct arrays_part[]){ARRAY(factors->inverse, count),
+							ARRAY(factors->multiplier, count), ARRAY(factors->ratio, count),
+							ARRAY(factors->right, (size_t)faces), {0}},
 			&factors->block, err) != 0) {
 		destroy(factors);
 		return -1;

@@ -54,7 +54,7 @@ static int allocate(struct memory *m, struct error *err)
 	TRY(strips_init(&m->strips, layers, faces, err));
 	blocks = fast_diagonal_blocks(&m->fast);
 	return arrays_allocate(
-		(struct array[]){ARRAY(m->x, all), ARRAY(m->residual, all), ARRAY(m->direction, all),
+		(struct arrays_part[]){ARRAY(m->x, all), ARRAY(m->residual, all), ARRAY(m->direction, all),
 			ARRAY(m->product, all), ARRAY(m->sums, (size_t)(groups > blocks ? groups : blocks)),
 			ARRAY(m->modes, fast_diagonal_count(&m->fast)), {0}},
 		&m->block, err);

@@ -11,7 +11,7 @@ int elimination_init(struct elimination *e, int layers, int room, struct error *
 	size_t row = (size_t)blocks * LANES, rows = (size_t)room * row;
 
 	*e = (struct elimination){.columns = columns_make(layers, room), .blocks = blocks, .row = row};
-	return arrays_allocate((struct array[]){ARRAY(e->x, rows * (size_t)layers),
+	return arrays_allocate((struct arrays_part[]){ARRAY(e->x, rows * (size_t)layers),
 							   ARRAY(e->lower, rows), ARRAY(e->same, rows), ARRAY(e->upper, rows),
 							   ARRAY(e->diagonal, row), ARRAY(e->above, row), {0}},
 		&e->memory, err);

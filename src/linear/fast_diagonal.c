@@ -48,7 +48,7 @@ int fast_diagonal_init(struct fast_diagonal *fast, int layers, int faces, struct
 	*fast = (struct fast_diagonal){.columns = columns_make(layers, faces), .half = half};
 	all = fast_diagonal_count(fast);
 	TRY(arrays_allocate(
-		(struct array[]){ARRAY(fast->to_modes[0], square), ARRAY(fast->to_modes[1], square),
+		(struct arrays_part[]){ARRAY(fast->to_modes[0], square), ARRAY(fast->to_modes[1], square),
 			ARRAY(fast->to_layers[0], square), ARRAY(fast->to_layers[1], square),
 			ARRAY(fast->of_stretch, 2 * half), ARRAY(fast->of_mean, 2 * half),
 			ARRAY(fast->kept, 2 * half), ARRAY(fast->multiplier, all), ARRAY(fast->inverse, all),

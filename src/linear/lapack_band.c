@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "linear/arrays.h"
 #include "linear/pressure_solver.h"
 
 struct memory {
@@ -26,7 +27,8 @@ struct memory {
 	double *band;                    /* [count][height], LAPACK's column-major band storage */
 	double *right;                   /* [faces][layers], right side, then solution */
 	double *rows;                    /* [layers][faces], residual */
-	lapack_int *pivots;              /* [count]; NULL when symmetric */
+	lapack_int *pivots;              /* [count]; none when symmetric */
+	void *block;
 };
 
 static int find(struct memory *m, const char *name, void **function, struct error *err)
@@ -67,24 +69,18 @@ static void destroy(void *memory)
 		return;
 	if (m->library)
 		(void)dlclose(m->library);
-	free(m->band);
-	free(m->right);
-	free(m->rows);
-	free(m->pivots);
+	free(m->block);
 	free(m);
 }
 
 static int allocate(struct memory *m, struct error *err)
 {
-	size_t count = (size_t)m->count, band = count * (size_t)m->height;
+	size_t count = (size_t)m->count, height = (size_t)m->height;
 
-	m->band = calloc(band, sizeof *m->band);
-	m->right = calloc(count, sizeof *m->right);
-	m->rows = calloc(count, sizeof *m->rows);
-	m->pivots = m->symmetric ? NULL : calloc(count, sizeof *m->pivots);
-	if (!m->band || !m->right || !m->rows || !(m->pivots || m->symmetric))
-		return error_memory(err, (band + 2 * count) * sizeof(double));
-	return 0;
+	return arrays_allocate(
+		(struct arrays_part[]){ARRAY(m->band, count * height), ARRAY(m->right, count),
+			ARRAY(m->rows, count), ARRAY(m->pivots, m->symmetric ? 0 : count), {0}},
+		&m->block, err);
 }
 
 static int create(
@@ -98,9 +94,13 @@ static int create(
 	m->count = layers * faces;
 	m->reach = layers + 1;
 	m->height = m->symmetric ? m->reach + 1 : 3 * m->reach + 1; /* room for what pivots fill in */
-	if (load(m, err) != 0 || allocate(m, err) != 0) {
+	if (load(m, err) != 0) {
 		destroy(m);
 		return -1;
+	}
+	if (allocate(m, err) != 0) {
+		destroy(m);
+		return pressure_solver_too_large(lapack_band.name, layers, faces, err);
 	}
 	*out = m;
 	return 0;

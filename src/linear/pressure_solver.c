@@ -26,6 +26,14 @@ int pressure_solver_chosen(const struct pressure_solver *solver, const void *mem
 	return solver->chosen ? solver->chosen(memory) : solver->method;
 }
 
+int pressure_solver_too_large(const char *name, int layers, int faces, struct error *err)
+{
+	return error_context(err,
+		"pressure_solver.method: %s keeps a matrix for %d layers of %d cells, conjugate-gradients "
+		"none",
+		name, layers, faces - 1);
+}
+
 /* A right side of zeros has no scale to stop by, and needs none. */
 static bool is_at_rest(struct pressure_system *system)
 {

@@ -50,6 +50,9 @@ const struct pressure_solver *pressure_solver_find(int method, bool symmetric);
 /* The method that the last solve took, enum method_kind. */
 int pressure_solver_chosen(const struct pressure_solver *solver, const void *memory);
 
+/* Say of a method that found no memory what it is for, and which one needs less. Returns -1. */
+int pressure_solver_too_large(const char *name, int layers, int faces, struct error *err);
+
 /* Solve, and hold the method to the rule: where the true residual is asked for and the method's own count
  * of it was too good, it goes on from where it is. Returns as `solve`, with the true relative residual
  * in *residual. */

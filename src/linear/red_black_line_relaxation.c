@@ -55,7 +55,7 @@ static int allocate(struct memory *m, struct error *err)
 	size_t vectors = (size_t)m->faces * m->stride, around = m->stride + LANES;
 	struct colour *even = &m->colours[0], *odd = &m->colours[1];
 
-	TRY(arrays_allocate((struct array[]){ARRAY(even->records, vectors * RECORD),
+	TRY(arrays_allocate((struct arrays_part[]){ARRAY(even->records, vectors * RECORD),
 							ARRAY(odd->records, vectors * RECORD), ARRAY(even->ratio, vectors),
 							ARRAY(odd->ratio, vectors), ARRAY(even->x, vectors + 2 * around),
 							ARRAY(odd->x, vectors + 2 * around), ARRAY(m->y, vectors),

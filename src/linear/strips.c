@@ -33,7 +33,7 @@ int strips_init(struct strips *s, int layers, int faces, struct error *err)
 	for (int i = 0; i < STRIPS_LEVELS; i++)
 		s->iterations[i] = iterations(i);
 	TRY(elimination_init(&s->elimination, layers, s->room * LANES, err));
-	return arrays_allocate((struct array[]){ARRAY(s->strips, room), ARRAY(s->level, groups),
+	return arrays_allocate((struct arrays_part[]){ARRAY(s->strips, room), ARRAY(s->level, groups),
 							   ARRAY(s->given, columns_count(&s->elimination.columns)), {0}},
 		&s->memory, err);
 }

@@ -1,61 +1,34 @@
 /* Runs in local coordinates beside runs in Cartesian ones (P2 4.1). */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "case/topography.h"
 #include "case/turn.h"
 #include "tables/metric_parts.h"
-
-static struct turn turn_of(const struct config *config)
-{
-	return config->coordinates == COORDINATES_CARTESIAN ? turn_to_local(config->slope)
-														: turn_to_cartesian(config->slope);
-}
-
-/* Bed and surface above the reference plane in the middle of the cells, as the run has them. */
-static void outline(const struct config *config, const struct dataset *x, const double *b,
-	const double *h, double *bed, double *surface)
-{
-	for (size_t i = 0; i < metric_count(x); i++) {
-		bed[i] = b[i];
-		if (config->coordinates == COORDINATES_CARTESIAN)
-			bed[i] -= topography_plane(config, x->values[i]);
-		surface[i] = bed[i] + h[i];
-	}
-}
 
 int metric_turn_thickness(const struct sample *sample, double **h, size_t *cells, struct error *err)
 {
 	struct grid grid = grid_make(sample->partner_config);
-	struct turn turn = turn_of(sample->config);
 	struct dataset x = {0}, b = {0};
-	double *memory = calloc(2 * *cells + 2 * grid.stride, sizeof *memory);
-	double *bed = memory, *surface = bed + *cells, *below = surface + *cells;
-	double *above = below + grid.stride;
+	double *turned = malloc((size_t)grid.cells * sizeof *turned);
 	int result = -1;
 
-	if (!memory)
-		return error_memory(err, 2 * (*cells + grid.stride) * sizeof *memory);
+	if (!turned)
+		return error_memory(err, (size_t)grid.cells * sizeof *turned);
 	if (metric_read(sample->file, "x", &x, err) || metric_read(sample->file, "b", &b, err))
 		goto done;
 	if (metric_count(&x) != *cells || metric_count(&b) != *cells) {
 		(void)error_set(err, EX_DATAERR, "datasets 'x', 'b' and 'h' have different lengths");
 		goto done;
 	}
-	outline(sample->config, &x, b.values, *h, bed, surface);
-	turn_add(&turn, x.values, bed, (int)*cells, &grid, below);
-	turn_add(&turn, x.values, surface, (int)*cells, &grid, above);
-	for (int i = 1; i <= grid.cells; i++)
-		below[i - 1] = above[i] - below[i];
-	free(*h);
-	*h = memory;
-	memmove(memory, below, (size_t)grid.cells * sizeof *memory);
-	*cells = (size_t)grid.cells;
-	memory = NULL;
-	result = 0;
+	result = turn_profile(sample->config, x.values, b.values, *h, (int)*cells, &grid, turned, err);
+	if (!result) {
+		free(*h);
+		*h = turned;
+		*cells = (size_t)grid.cells;
+		turned = NULL;
+	}
 done:
-	free(memory);
+	free(turned);
 	free(x.values);
 	free(b.values);
 	return result;

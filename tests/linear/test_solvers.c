@@ -789,7 +789,7 @@ static void strips_take_the_product_out_of_the_steep_columns_alone(void **state)
 	x = random_columns(&columns, &setup.system);
 	old = random_columns(&columns, &setup.system);
 	columns_apply(&columns, &setup.system, x, product, sums, 0, columns.groups);
-	largest = largest_of(product, columns.groups * group);
+	largest = largest_of(product, (size_t)columns.groups * group);
 	strips_correct(&strips, &setup.system, x, product, sums);
 	columns_apply(&columns, &setup.system, x, again, sums_again, 0, columns.groups);
 	for (int g = 0; g < columns.groups; g++) {
@@ -797,7 +797,7 @@ static void strips_take_the_product_out_of_the_steep_columns_alone(void **state)
 
 		for (int i = 0; i < strips.count; i++)
 			inside |= strips.strips[i].first <= g && g < strips.strips[i].last;
-		for (size_t k = g * group; k < (g + 1) * group && k < columns.faces * columns.stride; k++)
+		for (size_t k = (size_t)g * group; k < (size_t)(g + 1) * group && k < (size_t)columns.faces * columns.stride; k++)
 			if (inside)
 				assert_true(product[k] == 0 && fabs(again[k]) <= 1e-11 * largest);
 			else

@@ -2,6 +2,7 @@
 #include "../run/logistic.h"
 
 #include "base/file.h"
+#include "config/config_table.h"
 
 static void stops_anywhere_change_no_bit(void **state)
 {
@@ -349,6 +350,49 @@ static void two_damaged_files_are_65_and_stay(void **state)
 	assert_int_equal(report.state, RUN_STATE_DAMAGED);
 }
 
+static uint64_t steps_taken; /* of this process */
+
+static int deadly_step(struct model_state *s, double dt, struct error *err)
+{
+	if (++steps_taken == logistic.raise_at[0])
+		(void)raise(logistic.number);
+	return dry_model.step(s, dt, err);
+}
+
+/* Of the dry model, whose solvers may leave something for the next step. */
+static void kills_change_no_bit_with_any_pressure_solver(void **state)
+{
+	static const char common[] = "domain.cells=70;layers=3;time.end=0.25;output.profiles_at=[]";
+	static const uint64_t kills[] = {14, 9}; /* begins at 0, at 10, and at 15 to the end */
+	const char *const *names = field_find(&config_table, "pressure_solver.method")->choices;
+	struct model deadly = dry_model;
+
+	(void)state;
+	deadly.step = deadly_step;
+	model_in_use = &deadly;
+	logistic.number = SIGKILL;
+	for (int method = 0; names[method]; method++) {
+		char settings[256], straight[64];
+		struct config config;
+
+		(void)snprintf(
+			settings, sizeof settings, "%s;pressure_solver.method=%s", common, names[method]);
+		(void)snprintf(straight, sizeof straight, "straight-%s", names[method]);
+		config = logistic_config(settings);
+		logistic.raise_at[0] = 0;
+		must_execute(&config, straight);
+		config.checkpoint.every_steps = 5;
+		steps_taken = 0;
+		for (size_t i = 0; i < sizeof kills / sizeof *kills; i++) {
+			logistic.raise_at[0] = kills[i];
+			assert_int_equal(execute_in_child(&config, names[method], false), -SIGKILL);
+		}
+		logistic.raise_at[0] = 0;
+		must_execute(&config, names[method]);
+		assert_same_bits(straight, names[method]);
+	}
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, make_folder, remove_folder)
@@ -368,6 +412,7 @@ int main(void)
 		TEST(a_run_whose_newest_file_is_gone_resumes),
 		TEST(a_damaged_newest_file_falls_back_without_losing_the_good_one),
 		TEST(two_damaged_files_are_65_and_stay),
+		TEST(kills_change_no_bit_with_any_pressure_solver),
 	};
 
 	return cmocka_run_group_tests(tests, NULL, NULL);

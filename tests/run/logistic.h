@@ -205,6 +205,8 @@ static inline struct config logistic_config(const char *settings)
 	return config;
 }
 
+static const struct model *model_in_use = &logistic_model;
+
 /* A folder of its own for each test, made by the setup and removed by the teardown. */
 static char folder[] = "/tmp/talus-test-XXXXXX";
 
@@ -220,6 +222,7 @@ static inline int make_folder(void **state)
 {
 	(void)state;
 	memset(&logistic, 0, sizeof logistic);
+	model_in_use = &logistic_model;
 	memcpy(folder + sizeof folder - 7, "XXXXXX", 6);
 	return mkdtemp(folder) ? 0 : -1;
 }
@@ -246,7 +249,7 @@ static inline int execute(
 {
 	const struct run_options options = {.retry = retry};
 
-	return run_execute_model(&logistic_model, config, in_folder(name), &options, err);
+	return run_execute_model(model_in_use, config, in_folder(name), &options, err);
 }
 
 /* The same in a process of its own, because a stop stays asked for. Returns its exit code, or minus

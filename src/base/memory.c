@@ -1,0 +1,27 @@
+#include "base/memory.h"
+
+#include <stdio.h>
+
+/* Bytes, caches that the kernel would give up among them; 0: nobody tells. */
+static double available(void)
+{
+	FILE *file = fopen("/proc/meminfo", "re");
+	char line[128];
+	double kilobytes = 0;
+
+	while (file && kilobytes == 0 && fgets(line, sizeof line, file))
+		(void)sscanf(line, "MemAvailable: %lf kB", &kilobytes);
+	if (file)
+		(void)fclose(file);
+	return 1024 * kilobytes;
+}
+
+int memory_check(size_t bytes, struct error *err)
+{
+	double here = bytes < MEMORY_SMALL ? 0 : available();
+
+	if (here == 0 || (double)bytes <= here)
+		return 0;
+	return error_set(err, EX_SOFTWARE, "%.1f GB of memory are needed, and %.1f GB are available",
+		1e-9 * (double)bytes, 1e-9 * here);
+}
