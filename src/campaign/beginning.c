@@ -101,7 +101,7 @@ static int add_folders(struct list *list, const struct experiment *experiment, s
 	int count = scandir(experiment->folder, &entries, NULL, alphasort), result = 0;
 
 	if (count < 0 && errno == ENOMEM)
-		return error_memory(err, sizeof *entries);
+		return error_memory(err, sizeof **entries);
 	for (int i = 0; i < count; i++) {
 		const char *name = entries[i]->d_name;
 

@@ -38,7 +38,7 @@ static bool is_run_folder(const char *folder, double *bytes, struct error *err)
 	bool good = count >= 0;
 
 	if (fd >= 0 && count < 0 && errno == ENOMEM)
-		error_memory(err, sizeof *entries);
+		error_memory(err, sizeof **entries);
 	*bytes = 0;
 	for (int i = 0; i < count; i++) {
 		const char *name = entries[i]->d_name;
@@ -152,7 +152,7 @@ int leftover_list_read(const struct experiment *experiments, size_t count,
 	*out = (struct leftover_list){0};
 	found = scandir(experiments[0].folder, &entries, NULL, alphasort);
 	if (found < 0 && errno == ENOMEM)
-		return error_memory(err, sizeof *entries);
+		return error_memory(err, sizeof **entries);
 	for (int i = 0; i < found; i++) {
 		const char *name = entries[i]->d_name;
 
@@ -180,7 +180,7 @@ static int unlink_files(
 	int count = scandir(leftover->folder, &entries, NULL, NULL), result = 0;
 
 	if (count < 0 && errno == ENOMEM)
-		return error_memory(err, sizeof *entries);
+		return error_memory(err, sizeof **entries);
 	for (int i = 0; i < count; i++) {
 		const char *name = entries[i]->d_name;
 

@@ -219,7 +219,7 @@ static int find_folders(struct experiment *experiment, struct error *err)
 	int count = scandir(experiment->folder, &entries, NULL, alphasort), result = 0;
 
 	if (count < 0 && errno == ENOMEM)
-		return error_memory(err, sizeof *entries);
+		return error_memory(err, sizeof **entries);
 	for (int i = 0; i < count; i++) {
 		size_t index = run_name_find(experiment, entries[i]->d_name);
 		struct experiment_run *run = &experiment->runs[index];

@@ -67,7 +67,7 @@ static double points(const struct config *config, double x, double b)
 	(void)b;
 	if (x < list->values[0] || x > list->values[list->count - 2])
 		return 0;
-	return points_value(list, x);
+	return topography_points_value(list, x);
 }
 
 /* A flow without ends (P3 5.1). */

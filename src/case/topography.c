@@ -24,27 +24,25 @@ static double rough(const struct config *config, double x)
 	return (double)(2 / (x + 4.0L) - 0.5L + bell(x + 1.5L));
 }
 
-double points_value(const struct real_list *points, double x)
+double topography_points_value(const struct real_list *points, double x)
 {
-	const double *at = points->values;
-	int low = 0, high = points->count / 2 - 1;
+	const double *low = points->values, *high = points->values + points->count - 2;
 
-	if (x <= at[0])
-		return at[1];
-	if (x >= at[2 * high])
-		return at[2 * high + 1];
-	while (high - low > 1) {
-		int middle = (low + high) / 2;
+	if (x <= low[0])
+		return low[1];
+	if (x >= high[0])
+		return high[1];
+	while (high - low > 2) {
+		const double *middle = low + (high - low) / 4 * 2;
 
-		*(at[2 * middle] <= x ? &low : &high) = middle;
+		*(middle[0] <= x ? &low : &high) = middle;
 	}
-	return at[2 * low + 1] +
-		   (at[2 * high + 1] - at[2 * low + 1]) * (x - at[2 * low]) / (at[2 * high] - at[2 * low]);
+	return low[1] + (high[1] - low[1]) * (x - low[0]) / (high[0] - low[0]);
 }
 
 static double points(const struct config *config, double x)
 {
-	return points_value(&config->topography.points, x);
+	return topography_points_value(&config->topography.points, x);
 }
 
 static double plane(const struct config *config, double x)

@@ -15,6 +15,6 @@ int topography_add_random(
 	const struct config *config, const struct grid *grid, double *row, struct error *err);
 
 /* Between points x, value, x, value with x rising; the end values beyond. */
-double points_value(const struct real_list *points, double x);
+double topography_points_value(const struct real_list *points, double x);
 
 #endif

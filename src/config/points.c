@@ -142,11 +142,15 @@ static int read_list(const struct field *field, const struct field_place *place,
 int points_convert(const struct field *field, const struct field_place *place, const char *beside,
 	struct real_list *list, struct error *err)
 {
-	struct points points = {.values = malloc(2 * POINTS_MAX * sizeof(double))};
+	const size_t bytes = sizeof(double) * 2 * POINTS_MAX;
+	struct points points = {0};
 	int status = -1;
 
+	if (place->node->kind == NODE_SEQUENCE && !place->node->count)
+		return real_list_keep(list, NULL, 0, err);
+	points.values = malloc(bytes);
 	if (!points.values)
-		return error_memory(err, 2 * POINTS_MAX * sizeof(double));
+		return error_memory(err, bytes);
 	if (place->node->kind == NODE_MAPPING)
 		(void)error_set(err, EX_DATAERR,
 			"expected the name of a file, or points such as [[0, 0], [1, 0.1]], not %s",

@@ -134,6 +134,8 @@ struct model_state {
 
 	double *level; /* of interface a in mean layers, [layers + 1]: a where all are equal, 1 */
 	double *x, *layer_middle, *layer_interface; /* axes of the run file */
+	/* The exact steady flow of the initial height, dry_exact; NaN where that is not uniform. */
+	double *steady_u, *steady_strain, *steady_mu; /* [layers], m/s; [layers + 1], 1/s and 1 */
 	double *memory;
 };
 
@@ -193,8 +195,12 @@ int dry_pressure(struct model_state *s, double dt, struct error *err);
 /* Add dt T(p) to U and W (P1 9b, 9c), with p a [layers][faces] field in p/rho units. */
 void dry_add_pressure_force(struct model_state *s, const double *p, double dt);
 
+/* The velocities at the middle of the layers [layers], and the strain rates and mu(I) at the interfaces
+ * [layers + 1], of the steady uniform flow of thickness h. NaN where grains would gain speed for ever. */
+void dry_exact(const struct model_state *s, double h, double *u, double *strain, double *mu);
+
 /* Series and profiles (observe.c), as struct model describes them. */
-enum { DRY_SERIES_COUNT = 16, DRY_PROFILE_COUNT = 8 };
+enum { DRY_SERIES_COUNT = 18, DRY_PROFILE_COUNT = 13 };
 extern const struct series dry_series[DRY_SERIES_COUNT];
 extern const struct profile dry_profiles[DRY_PROFILE_COUNT];
 void dry_observe(const struct model_state *s, double *values);

@@ -90,9 +90,12 @@ static size_t layout(struct model_state *s, bool cartesian, double *memory)
 	s->x = place(&next, stride);
 	s->layer_middle = place(&next, n);
 	s->layer_interface = place(&next, n + 1);
+	s->steady_u = place(&next, n);
+	s->steady_strain = place(&next, n + 1);
+	s->steady_mu = place(&next, n + 1);
 	s->coarse.u = coarse ? place(&next, coarse * stride) : NULL;
 	s->coarse.w = coarse ? place(&next, coarse * stride) : NULL;
-	return (7 + cartesian + 5 * n + before + 2 * coarse) * stride + (6 + 2 * n) * faces + 3 * n + 4;
+	return (7 + cartesian + 5 * n + before + 2 * coarse) * stride + (6 + 2 * n) * faces + 6 * n + 6;
 }
 
 static int projection_init(struct model_state *s, const struct config *config,
@@ -168,6 +171,8 @@ static int fill(struct model_state *s, const struct config *config, struct error
 		mass += s->h[i];
 	}
 	s->mass[0] = s->par.rho * mass * s->grid.dx;
+	dry_exact(s, config->initial.shape == SHAPE_UNIFORM ? s->h[1] : NAN, s->steady_u,
+		s->steady_strain, s->steady_mu);
 	if (config->gate.speed != 0)
 		open_gate(s, config);
 	return 0;
@@ -398,6 +403,7 @@ static size_t arrays(struct model_state *s, struct array *list)
 const struct model dry_model = {
 	.name = "dry",
 	.numerics_version = 3,
+	.remedy = "a lower time.cfl may carry it",
 	.series = dry_series,
 	.series_count = DRY_SERIES_COUNT,
 	.profiles = dry_profiles,

@@ -1,5 +1,6 @@
 /* What a dry run records: series per step and profiles at chosen times. */
 #include <math.h>
+#include <string.h>
 
 #include "dry/dry.h"
 
@@ -20,6 +21,8 @@ enum {
 	CPU_TRANSPORT,
 	CPU_FRICTION,
 	CPU_PRESSURE,
+	STEADY_MAX_SPEED,
+	BAGNOLD_ERROR,
 };
 
 const struct series dry_series[DRY_SERIES_COUNT] = {
@@ -96,6 +99,18 @@ const struct series dry_series[DRY_SERIES_COUNT] = {
 		.long_name = "CPU time of step 3, non-hydrostatic pressure",
 		.slope_of = -1,
 		.per_step_sum = true},
+	[STEADY_MAX_SPEED] = {.name = "steady_max_speed",
+		.units = "m s-1",
+		.long_name =
+			"velocity of the uppermost layer in the exact steady flow (P3 52) of a uniform "
+			"initial height",
+		.slope_of = -1},
+	[BAGNOLD_ERROR] = {.name = "bagnold_error",
+		.units = "1",
+		.long_name =
+			"relative distance of the velocities from that flow, in the middle of the domain "
+			"(P3 53)",
+		.slope_of = -1},
 };
 
 enum {
@@ -105,6 +120,11 @@ enum {
 	VELOCITY,
 	NORMAL_VELOCITY,
 	PRESSURE,
+	STRAIN_RATE,
+	FRICTION,
+	STEADY_VELOCITY,
+	STEADY_STRAIN_RATE,
+	STEADY_FRICTION,
 	BOTTOM_DISSIPATION,
 	LAYER_DISSIPATION,
 };
@@ -118,6 +138,17 @@ const struct profile dry_profiles[DRY_PROFILE_COUNT] = {
 	[NORMAL_VELOCITY] = {"w", "m s-1", "layer velocity normal to the slope", PROFILE_LAYER_X,
 		false},
 	[PRESSURE] = {"p", "Pa", "total pressure at the layer interfaces", PROFILE_INTERFACE_X, false},
+	[STRAIN_RATE] = {"strain_rate", "s-1", "shear |d_z u| at the layer interfaces",
+		PROFILE_INTERFACE_X, false},
+	[FRICTION] = {"mu", "1", "friction coefficient mu(I) at the layer interfaces",
+		PROFILE_INTERFACE_X, false},
+	[STEADY_VELOCITY] = {"u_steady", "m s-1",
+		"layer velocity in the exact steady flow (P3 52) of a uniform initial height",
+		PROFILE_LAYER, false},
+	[STEADY_STRAIN_RATE] = {"strain_rate_steady", "s-1", "shear in that flow", PROFILE_INTERFACE,
+		false},
+	[STEADY_FRICTION] = {"mu_steady", "1", "friction coefficient in that flow", PROFILE_INTERFACE,
+		false},
 	[BOTTOM_DISSIPATION] = {"bottom_dissipation", "W m-2",
 		"power of the friction at the bottom (P1 Theorem 1)", PROFILE_X, false},
 	[LAYER_DISSIPATION] = {"layer_dissipation", "W m-2",
@@ -158,6 +189,20 @@ static void energies(const struct model_state *s, double *values)
 	values[POTENTIAL_ENERGY] = values[ENERGY] - values[KINETIC_ENERGY];
 }
 
+/* P3 (53) over the layers of a cell, weighted by their thickness. */
+static double bagnold_error(const struct model_state *s, int i)
+{
+	double apart = 0, whole = 0;
+
+	for (int a = 0; a < s->layers; a++) {
+		double exact = s->steady_u[a], u = s->u[(size_t)a * s->grid.stride + (size_t)i];
+
+		apart += dry_layer(s, a) * (u - exact) * (u - exact);
+		whole += dry_layer(s, a) * exact * exact;
+	}
+	return sqrt(apart / whole);
+}
+
 void dry_observe(const struct model_state *s, double *values)
 {
 	double mass = 0, speed = 0, thickest = 0;
@@ -180,6 +225,8 @@ void dry_observe(const struct model_state *s, double *values)
 	values[CPU_TRANSPORT] = s->cpu[0];
 	values[CPU_FRICTION] = s->cpu[1];
 	values[CPU_PRESSURE] = s->cpu[2];
+	values[STEADY_MAX_SPEED] = s->steady_u[s->layers - 1];
+	values[BAGNOLD_ERROR] = bagnold_error(s, (s->grid.cells + 1) / 2);
 }
 
 /* Height below which the column is slower than the static speed, linear between layer middles. */
@@ -223,19 +270,42 @@ static void diagnose_w(const struct model_state *s, double *values)
 	}
 }
 
-static void total_pressure(const struct model_state *s, double *values)
+/* p/rho below layer a in cell i, m2/s2. */
+static double total_pressure(const struct model_state *s, int a, int i)
 {
-	size_t cells = (size_t)s->grid.cells, faces = (size_t)s->grid.faces;
+	const double *q = s->q + (size_t)a * (size_t)s->grid.faces + i;
+	double fluctuation = a < s->layers ? 0.5 * (q[-1] + q[0]) : 0;
 
+	return s->par.gc * s->h[i] * (s->layers - s->level[a]) / s->layers + fluctuation;
+}
+
+/* |d_z u| there as friction takes it: between the middles of the layers, and at the bottom; 1/s. */
+static double shear(const struct model_state *s, int a, int i)
+{
+	const double *u = s->u + (size_t)a * s->grid.stride + i;
+	double apart = 1 / dry_bottom_layers(s), jump = 0;
+
+	if (a == 0)
+		jump = u[0];
+	else if (a < s->layers) {
+		jump = u[0] - *(u - s->grid.stride);
+		apart = s->layer_middle[a] - s->layer_middle[a - 1];
+	}
+	return s->h[i] > DRY_NO_MOMENTUM ? fabs(jump) / (apart * s->h[i]) : 0;
+}
+
+/* mu(I) there. Where nothing presses and nothing is sheared, as at the surface, it is mu_s. */
+static double friction(const struct model_state *s, int a, int i)
+{
+	return dry_mu(&s->par, shear(s, a, i), fmax(0, total_pressure(s, a, i)));
+}
+
+static void each_interface(const struct model_state *s, double scale,
+	double (*value)(const struct model_state *s, int a, int i), double *values)
+{
 	for (int a = 0; a <= s->layers; a++)
-		for (size_t i = 1; i <= cells; i++) {
-			const double *q = s->q + (size_t)a * faces + i;
-			double fluctuation = a < s->layers ? 0.5 * (q[-1] + q[0]) : 0;
-
-			values[(size_t)a * cells + i - 1] =
-				s->par.rho *
-				(s->par.gc * s->h[i] * (s->layers - s->level[a]) / s->layers + fluctuation);
-		}
+		for (int i = 1; i <= s->grid.cells; i++)
+			*values++ = scale * value(s, a, i);
 }
 
 static void copy_cells(const struct model_state *s, const double *field, int rows, double *values)
@@ -269,8 +339,23 @@ void dry_profile(const struct model_state *s, size_t index, double *values)
 		else
 			diagnose_w(s, values);
 		break;
+	case STRAIN_RATE:
+		each_interface(s, 1, shear, values);
+		break;
+	case FRICTION:
+		each_interface(s, 1, friction, values);
+		break;
+	case STEADY_VELOCITY:
+		memcpy(values, s->steady_u, (size_t)s->layers * sizeof *values);
+		break;
+	case STEADY_STRAIN_RATE:
+		memcpy(values, s->steady_strain, ((size_t)s->layers + 1) * sizeof *values);
+		break;
+	case STEADY_FRICTION:
+		memcpy(values, s->steady_mu, ((size_t)s->layers + 1) * sizeof *values);
+		break;
 	case PRESSURE:
-		total_pressure(s, values);
+		each_interface(s, s->par.rho, total_pressure, values);
 		break;
 	default:
 		dry_dissipation(s, index == LAYER_DISSIPATION, values);

@@ -442,6 +442,10 @@ static const struct metric metrics[] = {
 		"the same of those normal to the slope"},
 	{"h-change", "h moves", "m", -1, PARTNER_NONE, false, NULL, metric_drift_largest, "h",
 		"the greatest change of the thickness at any place since the first profile stored"},
+	{"normal-velocity", "greatest w", "m/s", 3, PARTNER_NONE, true, NULL, metric_profile_greatest,
+		"w", "the greatest velocity of a layer normal to the slope, up or down, at a profile time"},
+	{"kinetic-energy", "kinetic energy", "J/m", 2, PARTNER_NONE, false, NULL,
+		metric_series_greatest, "kinetic_energy", "the greatest kinetic energy"},
 	{"h-l1", "h L1", "m2", -1, PARTNER_REFERENCE, true, NULL, metric_reference_l1, "h",
 		"difference in thickness from the `reference` run, which is averaged over the cells of "
 		"this "
@@ -484,6 +488,15 @@ static const struct metric metrics[] = {
 		"greatest layer velocity at a profile time"},
 	{"final-max-speed", "v max", "m/s", -1, PARTNER_NONE, false, NULL, metric_series_last,
 		"max_speed", "greatest layer velocity at the end"},
+	{"steady-max-speed", "exact v max", "m/s", -1, PARTNER_NONE, false, NULL, metric_series_last,
+		"steady_max_speed", "the same of the exact steady flow"},
+	{"bagnold-error", "u L2", "", -1, PARTNER_NONE, false, NULL, metric_series_last,
+		"bagnold_error",
+		"error of the velocity profile of a dry uniform flow against the exact steady one at the "
+		"end, "
+		"P3 (53)"},
+	{"bagnold-error-order", "order", "", 2, PARTNER_PREVIOUS, false, NULL, metric_series_last,
+		"bagnold_error", "its order, from the row before"},
 	{"final-mean-speed", "v mean", "m/s", -1, PARTNER_NONE, false, NULL, metric_series_last,
 		"mean_speed", "mean velocity at the end"},
 	{"final-fraction", "phi mean", "", 4, PARTNER_NONE, false, NULL, metric_series_last, "fraction",

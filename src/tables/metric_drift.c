@@ -1,4 +1,4 @@
-/* How far a flow has gone from the first profile that is stored, over those stored later. */
+/* Stored profiles: how far those stored later are from the first, and the greatest value of one. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -77,6 +77,21 @@ int metric_drift_largest(const struct sample *sample, double *out, struct error 
 	*out = 0;
 	for (size_t i = each; i < metric_count(&data); i++)
 		*out = fmax(*out, fabs(data.values[i] - data.values[i % each]));
+	free(data.values);
+	return 0;
+}
+
+int metric_profile_greatest(const struct sample *sample, double *out, struct error *err)
+{
+	struct dataset data = {0};
+	size_t row, each;
+
+	TRY(metric_profile_row(sample->file, sample->at, &row, err));
+	TRY(metric_read(sample->file, sample->metric->dataset, &data, err));
+	each = metric_count(&data) / data.extent[0];
+	*out = 0;
+	for (size_t i = 0; row < data.extent[0] && i < each; i++)
+		*out = fmax(*out, fabs(data.values[row * each + i]));
 	free(data.values);
 	return 0;
 }

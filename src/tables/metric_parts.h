@@ -27,6 +27,7 @@ int metric_reference_l1(const struct sample *sample, double *out, struct error *
 /* metric_drift.c: the greatest distance from the first stored profile, L1 as P1 (35) or of any one value. */
 int metric_drift_l1(const struct sample *sample, double *out, struct error *err);
 int metric_drift_largest(const struct sample *sample, double *out, struct error *err);
+int metric_profile_greatest(const struct sample *sample, double *out, struct error *err);
 
 /* metric_coordinates.c: a thickness of the sample's run changed into the coordinates and onto the cells of its
  * partner; the way of the front at a profile time against that of the partner, along the plane. */

@@ -26,6 +26,10 @@ tail -n 1 run.out
 commands 'Figures' >figures.sh
 grep -c . figures.sh
 bash figures.sh 2>&1 | grep figures/
+commands 'Laws, bottom, walls and ends' >laws.sh
+grep -c . laws.sh
+bash laws.sh >laws.out 2>&1
+echo "exit $?"
 commands 'Grains in a fluid' >fluid.sh
 grep -c . fluid.sh
 bash fluid.sh >fluid.out 2>&1

@@ -117,6 +117,109 @@ static void a_periodic_flow_may_begin_anywhere(void **state)
 	dry_model.free(r);
 }
 
+/* P3 5.1: a flow from rest, on few cells. */
+#define UNIFORM                                                                                    \
+	"pressure=hydrostatic", "slope=0.43 rad", "erodible_bed_thickness=0",                          \
+		"initial={shape: uniform, height: 1 m}", "grains.diameter=4 cm",                           \
+		"rheology={mu_s: 0.363, mu_2: 0.74}", "domain={x_max: 0.2 m, cells: 4}", "time.cfl=1"
+
+static double steady_error(const char *layers, const char *one, const char *other)
+{
+	const char *const settings[] = {UNIFORM, layers, one, other, "domain.left=periodic",
+		"domain.right=periodic", "time.end=50 s"};
+	struct model_state *s = run(settings, sizeof settings / sizeof *settings);
+	double error = observed(s, "bagnold_error");
+
+	assert_true(observed(s, "max_speed") > 0.1);
+	dry_model.free(s);
+	return error;
+}
+
+static void a_uniform_flow_becomes_bagnolds(void **state)
+{
+	double coarse = steady_error("layers=10", "bottom=no-slip", "walls.mu_w=0");
+	double fine = steady_error("layers=20", "bottom=no-slip", "walls.mu_w=0");
+	double slips = steady_error("layers=20", "bottom=friction", "walls.mu_w=0");
+
+	(void)state;
+	assert_true(fine < 6e-4);
+	assert_true(coarse / fine > 3.8 && coarse / fine < 4.2); /* second order */
+	assert_true(slips > 0.05 && slips < 0.06);               /* first order only: about 1/N */
+	/* nothing changes along x, so nothing is stretched */
+	assert_true(
+		fabs(steady_error("layers=20", "bottom=no-slip", "rheology.strain_rate=second-order") -
+			 fine) < 1e-9);
+	/* a limit that is reached at the surface at most */
+	assert_true(
+		steady_error("layers=20", "bottom=no-slip", "regularisation.viscosity=bounded") < 6e-4);
+}
+
+static void layers_of_their_own_thickness_come_as_close(void **state)
+{
+	/* twice as thin near the bottom as near the surface */
+	double error = steady_error("layers=8", "bottom=no-slip",
+		"layer_fractions=[0.0625, 0.0625, 0.125, 0.125, 0.125, 0.125, 0.1875, 0.1875]");
+
+	(void)state;
+	assert_true(
+		error < 1.5e-2); /* 2.8e-3 with eight equal ones, first order where the size jumps */
+}
+
+/* Side walls carry mu_w (h - z)/W of the weight: the flow is slower, and rests near the bottom. */
+static void side_walls_slow_the_flow_as_the_balance_says(void **state)
+{
+	const char *const settings[] = {UNIFORM, "walls={mu_w: 0.18, width: 1 m}"};
+	struct config config = read_config(settings, sizeof settings / sizeof *settings);
+	struct model_state *s = create(&config);
+	double coarse = steady_error("layers=10", "bottom=no-slip", "walls={mu_w: 0.18, width: 2 m}");
+	double fine = steady_error("layers=20", "bottom=no-slip", "walls={mu_w: 0.18, width: 2 m}");
+
+	(void)state;
+	assert_true(fine < 1.5e-3);
+	assert_true(coarse / fine > 3.6 && coarse / fine < 4.4);
+	/* at rest below (tan(theta) - mu_s) W/mu_w, 0.53 m */
+	assert_true(s->steady_strain[1] == 0 && s->steady_strain[2] > 0 && s->steady_u[0] == 0);
+	dry_model.free(s);
+}
+
+/* P3 (52) itself, and where there is no such flow. */
+static void the_exact_flow_is_that_of_the_paper(void **state)
+{
+	static const struct {
+		const char *setting;
+		double speed; /* of the uppermost layer */
+	} cases[] = {{"slope=0.34 rad", 0}, {"slope=0.64 rad", NAN}, {"rheology.law=constant", NAN},
+		{"initial.shape=column", NAN}};
+
+	(void)state;
+	const char *const settings[] = {UNIFORM, "layers=4", ""};
+	const char *list[sizeof settings / sizeof *settings];
+	int count = sizeof settings / sizeof *settings;
+	struct config config = read_config(settings, count - 1);
+	struct model_state *s = create(&config);
+	double tan_slope = tan(0.43), gc = 9.81 * cos(0.43);
+
+	for (int a = 0; a < 4; a++) {
+		double depth = 1 - (a + 0.5) / 4;
+		double u = 2 / (3 * 0.04) * 0.279 * (tan_slope - 0.363) / (0.74 - tan_slope) *
+				   sqrt(0.62 * gc) * (1 - pow(depth, 1.5));
+
+		assert_true(fabs(s->steady_u[a] - u) < 1e-13 * u);
+	}
+	dry_model.free(s);
+	memcpy(list, settings, sizeof settings);
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+		double speed;
+
+		list[count - 1] = cases[i].setting;
+		config = read_config(list, count);
+		s = create(&config);
+		speed = observed(s, "steady_max_speed");
+		assert_true(isnan(cases[i].speed) ? isnan(speed) : speed == cases[i].speed);
+		dry_model.free(s);
+	}
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -124,6 +227,10 @@ int main(void)
 		cmocka_unit_test(equal_fractions_are_equal_layers),
 		cmocka_unit_test(fractions_move_the_interfaces),
 		cmocka_unit_test(a_periodic_flow_may_begin_anywhere),
+		cmocka_unit_test(a_uniform_flow_becomes_bagnolds),
+		cmocka_unit_test(layers_of_their_own_thickness_come_as_close),
+		cmocka_unit_test(side_walls_slow_the_flow_as_the_balance_says),
+		cmocka_unit_test(the_exact_flow_is_that_of_the_paper),
 	};
 
 	return cmocka_run_group_tests(tests, NULL, NULL);

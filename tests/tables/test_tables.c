@@ -643,6 +643,35 @@ static void other_builds_and_machines_are_flagged_where_times_compare(void **sta
 	}
 }
 
+static void labels_are_numbers_to_programs_where_they_share_a_unit(void **state)
+{
+	struct experiment e = read_experiment(
+		"title: Units\n"
+		"base: base.yaml\n"
+		"runs: [{slope: [0 deg, 22.5 deg], erodible_bed_thickness: [1 mm, 2 cm], layers: [4]}]\n"
+		"tables: [{name: t, rows: [slope, erodible_bed_thickness, layers, pressure], metric: "
+		"runout}]\n");
+	struct content content = complete(1, 9);
+	struct text missing;
+	char *text;
+
+	(void)state;
+	for (size_t i = 0; i < e.run_count; i++)
+		make_run(&e.runs[i], &content);
+	assert_table(&e, "csv",
+		"slope deg,erodible_bed_thickness,layers,pressure,runout m\r\n"
+		"0,1 mm,4,non-hydrostatic,1.25\r\n0,2 cm,4,non-hydrostatic,1.25\r\n"
+		"22.5,1 mm,4,non-hydrostatic,1.25\r\n22.5,2 cm,4,non-hydrostatic,1.25\r\n");
+	text = print(&e, "json", &missing);
+	assert_non_null(
+		strstr(text, "{\"heads\": [\"slope\"], \"label\": true,\n     \"unit\": \"deg\",\n"
+					 "     \"values\": [0, 0, 22.5, 22.5]},"));
+	assert_non_null(strstr(text, "\"values\": [\"1 mm\", \"2 cm\", \"1 mm\", \"2 cm\"]},"));
+	free(text);
+	text_clean(&missing);
+	experiment_clean(&e);
+}
+
 static void markdown_and_csv_survive_their_own_marks(void **state)
 {
 	struct experiment e =
@@ -835,6 +864,7 @@ int main(void)
 		TEST(an_unfinished_run_is_missing_and_named),
 		TEST(a_cell_keeps_the_median_of_the_repeats_that_are_there),
 		TEST(other_builds_and_machines_are_flagged_where_times_compare),
+		TEST(labels_are_numbers_to_programs_where_they_share_a_unit),
 		TEST(markdown_and_csv_survive_their_own_marks),
 		TEST(only_chooses_runs_by_value_however_written),
 		TEST(latex_and_json_survive_their_own_marks),
