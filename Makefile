@@ -136,7 +136,7 @@ tables figures:
 		$(MAKE) $(SUB) $$name || exit; done
 
 # What results/paper/ holds; its README.md walks through it.
-PAPER := $(filter p1-% p3-% p4-%,$(EXPERIMENTS))
+PAPER := $(filter-out quickstart observations-example solvers,$(EXPERIMENTS))
 
 ## paper: make the tables and figures in results/paper/ again (PAPER=names of experiments)
 paper:

@@ -57,7 +57,8 @@ struct model {
 	size_t series_count;
 	const struct profile *profiles;
 	size_t profile_count;
-	bool keeps_state; /* a step that fails leaves the state as it was, which is then saved */
+	const char *remedy; /* what may help where the steps become too short; NULL: nobody knows */
+	bool keeps_state;   /* a step that fails leaves the state as it was, which is then saved */
 
 	/* Allocate a state at t = 0 from a checked config. EX_SOFTWARE out of memory. */
 	int (*create)(const struct config *config, struct model_state **out, struct error *err);

@@ -2,6 +2,7 @@
 #ifndef TALUS_PLOTS_H
 #define TALUS_PLOTS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "talus/error.h"
@@ -14,9 +15,11 @@ enum plots_format { PLOTS_SVG = 1, PLOTS_PNG = 2, PLOTS_PDF = 4, PLOTS_ALL = 7 }
 struct plots_output {
 	const char *folder;  /* made when missing */
 	unsigned formats;    /* enum plots_format, added up */
+	bool dimensionless;  /* runs without units; of an experiment its plots say so */
 	struct text written; /* the path of every file, one a line */
 	struct text
-		missing; /* a line per thing that could not be drawn; empty: the figures are whole */
+		missing;       /* a line per thing that could not be drawn; empty: the figures are whole */
+	struct text notes; /* a line per figure that was left out because nothing would be seen in it */
 };
 
 /* Draw a plot of an experiment into folder/NAME.svg and so on, each file replaced whole. EX_DATAERR

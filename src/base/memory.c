@@ -1,16 +1,20 @@
 #include "base/memory.h"
 
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* Bytes, caches that the kernel would give up among them; 0: nobody tells. */
 static double available(void)
 {
+	static const char name[] = "MemAvailable:";
 	FILE *file = fopen("/proc/meminfo", "re");
 	char line[128];
 	double kilobytes = 0;
 
 	while (file && kilobytes == 0 && fgets(line, sizeof line, file))
-		(void)sscanf(line, "MemAvailable: %lf kB", &kilobytes);
+		if (strncmp(line, name, sizeof name - 1) == 0)
+			kilobytes = strtod(line + sizeof name - 1, NULL);
 	if (file)
 		(void)fclose(file);
 	return 1024 * kilobytes;

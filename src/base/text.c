@@ -145,9 +145,12 @@ char *text_excerpt(const char *string, char *buffer, size_t size)
 
 char *text_tame(char *string)
 {
-	for (char *c = string; c && *c; c++)
-		if (iscntrl((unsigned char)*c) && *c != '\n' && *c != '\t' && (*c != '\r' || c[1] != '\n'))
+	for (char *c = string; c && *c; c++) {
+		bool line_end = *c == '\n' || (*c == '\r' && c[1] == '\n'); /* CSV has the second */
+
+		if (iscntrl((unsigned char)*c) && !line_end && *c != '\t')
 			*c = '?';
+	}
 	return string;
 }
 

@@ -19,6 +19,8 @@ static const char help[] =
 	"RUN is a run folder or a run file (.h5); several are drawn together. EXPERIMENT is a YAML "
 	"file.\n\n"
 	"options:\n"
+	"  -d, --dimensionless  of RUNs: lengths over h_0, times over tau_c, velocities over v_0 (P1)\n"
+	"                       (default: SI units)\n"
 	"  -f, --format NAMES   svg, png and pdf, those wanted with commas between (default: all "
 	"three)\n"
 	"  -o, --output FOLDER  where the figures go (default: RUN/figures of the first run, or\n"
@@ -35,7 +37,7 @@ struct plot_options {
 	struct command_settings settings, names;
 	const char *folder, *runs;
 	unsigned formats;
-	bool help;
+	bool dimensionless, help;
 };
 
 static int read_formats(const char *names, struct plot_options *options)
@@ -87,6 +89,9 @@ static int read_option(int option, struct plot_options *options, char **argv)
 		return read_folder("-r", &options->runs);
 	case 'f':
 		return read_formats(optarg, options);
+	case 'd':
+		options->dimensionless = true;
+		return 0;
 	case 'h':
 		options->help = true;
 		return 0;
@@ -98,6 +103,7 @@ static int read_option(int option, struct plot_options *options, char **argv)
 static int read_options(int argc, char **argv, struct plot_options *options)
 {
 	static const struct option list[] = {
+		{"dimensionless", no_argument, NULL, 'd'},
 		{"format", required_argument, NULL, 'f'},
 		{"output", required_argument, NULL, 'o'},
 		{"plot", required_argument, NULL, 'p'},
@@ -108,7 +114,7 @@ static int read_options(int argc, char **argv, struct plot_options *options)
 	};
 	int option, code;
 
-	while ((option = getopt_long(argc, argv, ":f:o:p:r:s:h", list, NULL)) != -1) {
+	while ((option = getopt_long(argc, argv, ":df:o:p:r:s:h", list, NULL)) != -1) {
 		code = read_option(option, options, argv);
 		if (code)
 			return code;
@@ -148,6 +154,8 @@ static int tell(struct plots_output *output)
 {
 	int code = command_print(&output->written);
 
+	if (output->notes.length)
+		(void)fprintf(stderr, "%s", text_string(&output->notes));
 	if (output->missing.length)
 		(void)fprintf(stderr, "%s", text_string(&output->missing));
 	return !code && output->missing.length ? EX_FAILED : code;
@@ -161,6 +169,9 @@ static int draw_experiment(const struct plot_options *options, const char *path)
 	struct error err = {0};
 	int code = 0, told;
 
+	if (options->dimensionless)
+		return command_usage(
+			"plot", "--dimensionless goes with runs; a plot of an EXPERIMENT has the key");
 	if (experiment_read(&experiment, path, options->runs, options->settings.list,
 			options->settings.count, &err))
 		code = command_fail(&err);
@@ -199,7 +210,8 @@ static int default_folder(const char *path, struct text *folder, struct error *e
 
 static int draw_runs(const struct plot_options *options, char **paths, int count)
 {
-	struct plots_output output = {.formats = options->formats};
+	struct plots_output output = {
+		.formats = options->formats, .dimensionless = options->dimensionless};
 	struct text folder = {0};
 	struct error err = {0};
 	int code = 0, told;

@@ -93,6 +93,11 @@ static int check_friction(
 			key);
 		return field_blame(reader, "scheme.friction", key, -1, err);
 	}
+	if (config->scheme.viscosity_updates > 0) {
+		(void)error_set(err, EX_DATAERR,
+			"scheme.viscosity_updates: there is no viscosity where scheme.friction is coulomb");
+		return field_blame(reader, "scheme.viscosity_updates", "scheme.friction", -1, err);
+	}
 	if (config->layers == 1)
 		return 0;
 	(void)error_set(err, EX_DATAERR,

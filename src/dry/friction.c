@@ -284,7 +284,7 @@ KERNEL_PART void solve(struct model_state *s, struct friction_choice choice, str
 
 #define SOLVE(i)                                                                                   \
 	case i:                                                                                        \
-		solve(s, (struct friction_choice){i & 1, i & 2, i & 4, i & 8}, chunk, &c, dt);             \
+		solve(s, (struct friction_choice){(i)&1, (i)&2, (i)&4, (i)&8}, chunk, &c, dt);             \
 		break
 
 KERNEL static void friction(struct model_state *s, struct chunk chunk, double dt)
@@ -374,7 +374,7 @@ void dry_dissipation(const struct model_state *s, bool between_layers, double *v
 		friction_thickness(s, chunk, &c);
 		bound(s, s->h + begins, &c);
 		for (int k = 0; k < c.cells; k++) {
-			size_t i = (size_t)(begins + k);
+			size_t i = (size_t)begins + (size_t)k;
 
 			values[i - 1] = 0;
 			for (int a = first; a <= last && s->h[i] >= DRY_ONE_LAYER; a++)

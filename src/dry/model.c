@@ -403,6 +403,7 @@ static size_t arrays(struct model_state *s, struct array *list)
 const struct model dry_model = {
 	.name = "dry",
 	.numerics_version = 3,
+	.remedy = "a lower time.cfl may carry it",
 	.series = dry_series,
 	.series_count = DRY_SERIES_COUNT,
 	.profiles = dry_profiles,

@@ -153,8 +153,8 @@ KERNEL_PART void limit_outflow(const struct model_state *s, double dt, struct wi
 		pays[j] = payable(h[j], flux[j - 1], flux[j], dt, s->grid.dx);
 	for (int f = 0; f < r->faces; f++) {
 		double left = pays[f], right = pays[f + 1], share = flux[f] > 0 ? left : right;
-		bool blocked = dry_emerges(h[f], b[f], h[f + 1], b[f + 1]) |
-					   dry_emerges(h[f + 1], b[f + 1], h[f], b[f]);
+		int blocked = (int)dry_emerges(h[f], b[f], h[f + 1], b[f + 1]) |
+					  (int)dry_emerges(h[f + 1], b[f + 1], h[f], b[f]);
 
 		r->share[f] = blocked ? 0 : share;
 	}

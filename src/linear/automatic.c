@@ -27,11 +27,11 @@ struct memory {
 	double kept[KEPT];
 };
 
-/* Iterations of conjugate gradients that take the time of one direct solution, which goes over the
- * columns some more times. */
+/* Iterations of conjugate gradients that take the time of one direct solution, or a little less: what the
+ * direct one takes beside elimination is not counted, since a trial that is given up is lost. */
 static int affordable(int layers)
 {
-	double direct = costs_elimination_factor(layers) + costs_elimination_solve(layers) + 4;
+	double direct = costs_elimination_factor(layers) + costs_elimination_solve(layers);
 
 	return (int)((direct - costs_gradients_start(layers)) / costs_gradients_iteration(layers));
 }

@@ -17,13 +17,14 @@ double costs_gradients_start(int layers)
 	return 1.7 * costs_gradients_iteration(layers);
 }
 
-/* A square of layers, of which a row is in registers as long as the compiler knows its length. */
+/* A square of layers, of which a row is in registers as long as the compiler knows its length. Beyond, a
+ * strip alone takes 0.04; what it throws out of the cache makes it dearer. */
 double costs_elimination_factor(int layers)
 {
 	int blocks = elimination_blocks(layers);
 	double square = (double)layers * LANES * blocks;
 
-	return blocks <= ELIMINATION_BLOCKS_KNOWN ? 9 + 0.025 * square : 20 + 0.04 * square;
+	return blocks <= ELIMINATION_BLOCKS_KNOWN ? 9 + 0.025 * square : 20 + 0.06 * square;
 }
 
 double costs_elimination_solve(int layers)

@@ -197,7 +197,7 @@ static int set_part(const struct kind_run *run, struct curve *curve, enum kind_p
 }
 
 /* Heights of the layers of a column: relative ones times the thickness there, where it is known. */
-static int stretch(const struct kind_request *request, const struct kind_run *run,
+static int stretch(const struct kind_request *request, const struct kind_run *run, bool station,
 	const struct slice_place *place, struct slice *slice, struct error *err)
 {
 	struct slice_place one = *place;
@@ -207,7 +207,7 @@ static int stretch(const struct kind_request *request, const struct kind_run *ru
 	bool known;
 
 	one.along = NULL;
-	known = slice_read(run->file, "h", &one, &h, &none) == 0;
+	known = slice_read(run->file, station ? "h_station" : "h", &one, &h, &none) == 0;
 	if (known)
 		multiply(slice->axis, slice->count, h.values[0]);
 	slice_clean(&h);
@@ -233,7 +233,8 @@ static int add_slice(const struct kind_request *request, const struct kind_run *
 	TRY(dataset_axis(request, run, kind->upright ? 0 : 1, name, &factor, err));
 	multiply(slice->values, slice->count, factor);
 	if (kind->upright) {
-		TRY(stretch(request, run, place, slice, err));
+		TRY(stretch(
+			request, run, slice_has_axis(run->file, name, "station", err), place, slice, err));
 	} else {
 		TRY(dataset_axis(request, run, 0, place->along, &factor, err));
 		multiply(slice->axis, slice->count, factor);
@@ -319,35 +320,56 @@ static const char *term_text(const struct term_list *list, size_t i)
 	return i < list->count ? list->items[i].text : NULL;
 }
 
-/* Every position and layer asked for, at one time. */
-static int add_places(const struct kind_request *request, const struct kind_run *run,
+/* The layers asked for, at one place and time. */
+static int add_layers(const struct kind_request *request, const struct kind_run *run,
 	const struct kind *kind, const char *name, const struct cut *at, struct error *err)
 {
 	const struct kind_cuts *cuts = request->cuts;
-	const struct experiment_panel *wanted = request->wanted;
 	const char *layers = slice_layer_axis(run->file, name, err);
-	bool has_x = strcmp(at->place.along, "x") != 0 && slice_has_axis(run->file, name, "x", err);
 	bool has_layers = layers && strcmp(at->place.along, layers) != 0;
-	size_t positions = has_x && cuts->position_count ? cuts->position_count : 1;
 	size_t count = has_layers && cuts->layer_count ? cuts->layer_count : 1;
 
 	if (err->code)
 		return -1;
-	for (size_t i = 0; i < positions; i++)
-		for (size_t k = 0; k < count; k++) {
-			struct cut cut = *at;
+	for (size_t k = 0; k < count; k++) {
+		struct cut cut = *at;
 
-			if (has_x && cuts->position_count) {
-				cut.place.x = cuts->positions[i];
-				cut.position = term_text(&wanted->at_x, i);
-			}
-			if (has_layers && cuts->layer_count) {
-				cut.place.layer = cuts->layers[k];
-				cut.layer = term_text(&wanted->layer, k);
-			}
-			TRY(add_cut(request, run, kind, name, &cut, err));
+		if (has_layers && cuts->layer_count) {
+			cut.place.layer = cuts->layers[k];
+			cut.layer = term_text(&request->wanted->layer, k);
 		}
+		TRY(add_cut(request, run, kind, name, &cut, err));
+	}
 	return 0;
+}
+
+/* Every position asked for, at one time; without any, all those of gauges and stations. */
+static int add_places(const struct kind_request *request, const struct kind_run *run,
+	const struct kind *kind, const char *name, const struct cut *at, struct error *err)
+{
+	const struct kind_cuts *cuts = request->cuts;
+	const char *axis = slice_position_axis(run->file, name, err);
+	double *all = NULL;
+	size_t count = cuts->position_count;
+	int result = 0;
+
+	if (err->code)
+		return -1;
+	if (!axis || !strcmp(at->place.along, axis) || (!count && !strcmp(axis, "x")))
+		return add_layers(request, run, kind, name, at, err);
+	if (!count && slice_axis(run->file, axis, &all, &count, err))
+		return lacks(request, run, err);
+	for (size_t i = 0; !result && i < count; i++) {
+		struct cut cut = *at;
+		char text[TEXT_REAL_SIZE + 2];
+
+		cut.place.x = all ? all[i] : cuts->positions[i];
+		(void)snprintf(text, sizeof text, "%.4g m", cut.place.x);
+		cut.position = all ? text : term_text(&request->wanted->at_x, i);
+		result = add_layers(request, run, kind, name, &cut, err);
+	}
+	free(all);
+	return result;
 }
 
 /* The axis of the dataset that stays: across the layers it is known by two names. */
@@ -363,8 +385,8 @@ static int add_lines(const struct kind_request *request, const struct kind_run *
 	const char *name, const struct kind *kind, struct error *err)
 {
 	const struct kind_cuts *cuts = request->cuts;
-	bool timed = strcmp(kind->along, "profile_time") != 0 &&
-				 slice_has_axis(run->file, name, "profile_time", err);
+	const char *axis = slice_time_axis(run->file, name, err);
+	bool timed = axis && strcmp(kind->along, axis) != 0;
 	struct cut cut = {.place = {along_of(kind, run, name, err), NAN, NAN, SLICE_FIRST}};
 	double *times = NULL, stride;
 	size_t count = 0;
@@ -374,7 +396,7 @@ static int add_lines(const struct kind_request *request, const struct kind_run *
 		return -1;
 	if (!timed || (!cuts->all_times && !cuts->time_count))
 		return add_places(request, run, kind, name, &cut, err);
-	if (cuts->all_times && slice_axis(run->file, "profile_time", &times, &count, err))
+	if (cuts->all_times && slice_axis(run->file, axis, &times, &count, err))
 		return lacks(request, run, err);
 	if (!cuts->all_times)
 		count = cuts->time_count;

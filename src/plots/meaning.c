@@ -8,6 +8,10 @@
 /* One that is not lost between the pieces of an SVG text. */
 #define SPACE "\u00a0"
 
+enum {
+	LABEL_MAX = 36
+}; /* bytes that fit beside a panel: beyond, the name of the dataset says it */
+
 /* What is well known has a short name and, in gnuplot's marks, a symbol. */
 static const struct known {
 	const char *name, *words, *symbol;
@@ -30,6 +34,31 @@ static const struct known {
 	{"max_thickness", "greatest thickness", "{/:Italic h}_{max}"},
 	{"mass", "mass", "{/:Italic M}"},
 	{"energy", "energy", "{/:Italic E}"},
+	{"kinetic_energy", "kinetic energy", "{/:Italic E}_k"},
+	{"potential_energy", "potential energy", "{/:Italic E}_p"},
+	{"bottom_dissipation", "dissipation at the bottom", ""},
+	{"layer_dissipation", "dissipation between layers", ""},
+	{"h_gauge", "thickness", "{/:Italic h}"},
+	{"h_station", "thickness", "{/:Italic h}"},
+	{"u_station", "velocity", "{/:Italic u}"},
+	{"w_station", "normal velocity", "{/:Italic w}"},
+	{"mean_speed", "mean velocity", "{/:Italic v}_{mean}"},
+	{"steady_max_speed", "top velocity, steady flow", ""},
+	{"steady_mean_speed", "mean velocity, steady flow", ""},
+	{"fraction", "mean solid fraction", "{/:Italic φ}"},
+	{"equilibrium_fraction", "equilibrium fraction", "{/:Italic φ}_{eq}"},
+	{"bottom_pressure", "solid pressure, bottom", ""},
+	{"bottom_pressure_root", "solid pressure, root", ""},
+	{"pressure_error", "distance from the root", ""},
+	{"excess_pressure", "excess pore pressure", ""},
+	{"fluid_transfer", "fluid through the surface", ""},
+	{"solid_transfer", "grains through the surface", ""},
+	{"solid_mass", "mass of the grains", ""},
+	{"max_slip", "greatest slip", ""},
+	{"v", "velocity of the grains", "{/:Italic v}"},
+	{"v_steady", "velocity, steady flow", "{/:Italic v}"},
+	{"phi", "solid fraction", "{/:Italic φ}"},
+	{"phi_steady", "solid fraction, steady flow", "{/:Italic φ}"},
 	{"pressure_iterations", "iterations", ""},
 	{"coarse_iterations", "iterations, coarse", ""},
 	{"layers", "layers", "{/:Italic N}"},
@@ -131,7 +160,9 @@ void meaning_label(const struct meaning *meaning, struct figure_text *out)
 	const struct known *row = find_known(meaning->name);
 	const struct scale *scale =
 		meaning->dimensionless ? find_scale(meaning->name, meaning->unit) : NULL;
-	const char *words = meaning->words && *meaning->words ? meaning->words : meaning->name;
+	const char *words = meaning->words && *meaning->words && strlen(meaning->words) <= LABEL_MAX
+							? meaning->words
+							: meaning->name;
 	struct text unit = {0};
 
 	add_unit(meaning, &unit);

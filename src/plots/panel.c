@@ -59,6 +59,20 @@ static int find_kind(struct panel *panel, struct error *err)
 	return 0;
 }
 
+/* Stations are recorded with the series, at any time. */
+static bool shows_profiles(const struct panel *panel)
+{
+	const struct term_list *names = &panel->wanted->y;
+	bool profiles = false;
+
+	for (size_t i = 0; i < names->count; i++) {
+		const char *end = strrchr(names->items[i].text, '_');
+
+		profiles |= !end || strcmp(end, "_station") != 0;
+	}
+	return panel->kind->timed && profiles;
+}
+
 /* Which run stands in which panel and line; refused as a table would be. */
 static int lay_out(struct panel *panel, const struct experiment_plot *plot, struct error *err)
 {
@@ -79,7 +93,7 @@ static int lay_out(struct panel *panel, const struct experiment_plot *plot, stru
 		table->reference = wanted->reference;
 	}
 	TRY(layout_create(&panel->layout, panel->experiment, table, "plot", err));
-	for (size_t i = 0; panel->kind->timed && i < panel->cuts.time_count; i++)
+	for (size_t i = 0; shows_profiles(panel) && i < panel->cuts.time_count; i++)
 		TRY(layout_check_time(&panel->layout, &wanted->at.items[i], panel->cuts.times[i],
 			wanted->at.items[i].text, err));
 	return 0;

@@ -29,6 +29,7 @@ void plots_output_clean(struct plots_output *output)
 {
 	text_clean(&output->written);
 	text_clean(&output->missing);
+	text_clean(&output->notes);
 }
 
 /* One file of a figure. gnuplot draws it in memory: it does not tell when a disk is full. */

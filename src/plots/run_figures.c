@@ -9,7 +9,11 @@
 #include "plots/slice.h"
 #include "run/run_file_parts.h"
 
-enum { SEVERAL = 4, FOUND_MAX = 9 };
+enum {
+	SEVERAL = 4,
+	FOUND_MAX = 18,
+	MAP_LEAST = 4, /* profiles below which a map is no picture of the time between them */
+};
 
 /* A figure: the panels whose datasets some run has. */
 static const struct run_figure {
@@ -17,10 +21,16 @@ static const struct run_figure {
 	const char *y[SEVERAL]; /* a panel each, or one panel for all of them */
 	bool together;
 	const char *at; /* NULL: the last time */
-	bool split;     /* a panel for every run */
+	bool split;     /* a panel for every run, and position */
 } figures[] = {
 	{"fronts", "Front and flow in time", "series",
-		{"front_position", "front_velocity", "max_thickness", "energy"}, false, NULL, false},
+		{"front_position", "front_velocity", "max_thickness", "kinetic_energy"}, false, NULL,
+		false},
+	{"energy", "Energy in time", "series", {"energy", "potential_energy", "kinetic_energy"}, false,
+		NULL, false},
+	{"gauges", "Thickness at the gauges", "series", {"h_gauge"}, false, NULL, true},
+	{"velocities", "Velocities over the height", "column", {"u_station", "w_station"}, false, "all",
+		true},
 	{"profiles", "Thickness along the slope", "profile", {"h"}, false, "all", true},
 	{"deposit", "Last profile", "profile", {"h", "static_height"}, true, NULL, true},
 	{"space-time", "Thickness in space and time", "map", {"h"}, false, NULL, true},
@@ -37,6 +47,7 @@ struct run_source {
 struct run_sources {
 	struct run_source *items; /* [count] */
 	size_t count;
+	bool dimensionless;
 };
 
 /* The last two parts of a path say which run it is: of "results/study/layers-8" the last one. */
@@ -130,12 +141,14 @@ static int add_panel(const struct run_sources *sources, const struct experiment_
 static int add_panels(const struct run_sources *sources, const char *kind, const char *const *names,
 	size_t count, const struct run_figure *like, struct figure *figure, struct error *err)
 {
-	struct term all[SEVERAL], at = {like->at, 0, 0}, run = {"run", 0, 0};
+	struct term all[SEVERAL], at = {like->at, 0, 0}, apart[] = {{"run", 0, 0}, {"at_x", 0, 0}};
+	size_t ways = !like->split ? 0 : !strcmp(kind, "column") ? 2 : 1;
 	struct experiment_panel panel = {.kind = {kind, 0, 0},
 		.title = "",
 		.labels = {"", ""},
 		.at = {&at, like->at != NULL},
-		.split = {&run, like->split}};
+		.split = {apart, ways},
+		.dimensionless = sources->dimensionless};
 	size_t kept = 0;
 
 	for (size_t i = 0; i < count; i++) {
@@ -205,13 +218,37 @@ static int draw_found(
 	return result;
 }
 
+/* A map of a few profiles would show more than is known. */
+static int has_enough(const struct run_sources *sources, const struct run_figure *wanted,
+	bool *enough, struct plots_output *output, struct error *err)
+{
+	size_t most = 0, length;
+	bool has;
+
+	TRY(any_has(sources, wanted->y[0], &has, err));
+	for (size_t i = 0; i < sources->count; i++) {
+		TRY(run_file_scale_length(sources->items[i].file, "profile_time", 0, &length, err));
+		most = length > most ? length : most;
+	}
+	*enough = strcmp(wanted->kind, "map") != 0 || most >= MAP_LEAST;
+	if (has && !*enough)
+		text_addf(&output->notes,
+			"%s: not drawn, %zu profile%s of the %d that it takes: output.profiles_at\n",
+			wanted->name, most, most == 1 ? "" : "s", MAP_LEAST);
+	return 0;
+}
+
 static int draw_figure(const struct run_sources *sources, const struct run_figure *wanted,
 	struct plots_output *output, struct error *err)
 {
 	struct figure figure = {.name = wanted->name};
 	size_t count = 0;
+	bool enough;
 	int result;
 
+	TRY(has_enough(sources, wanted, &enough, output, err));
+	if (!enough)
+		return 0;
 	while (count < SEVERAL && wanted->y[count])
 		count++;
 	text_addf(&figure.title, "%s%s%s", wanted->title, sources->count == 1 ? ": " : "",
@@ -223,10 +260,30 @@ static int draw_figure(const struct run_sources *sources, const struct run_figur
 	return result;
 }
 
+/* Runs without a front, beside others that have one, are in none of the figures. */
+static int tell_others(const struct run_sources *sources, struct text *missing, struct error *err)
+{
+	for (size_t i = 0; i < sources->count; i++) {
+		struct text model = {0};
+		bool has;
+
+		TRY(run_file_has(sources->items[i].file, "front_position", &has, err));
+		if (has)
+			continue;
+		TRY(run_file_text(sources->items[i].file, "model", &model, err));
+		text_addf(missing,
+			"run %s: not drawn, model: %s has other figures than the rest; plot it on its own\n",
+			sources->items[i].name, text_string(&model));
+		text_clean(&model);
+	}
+	return 0;
+}
+
 int plots_draw_runs(
 	const char *const *paths, size_t count, struct plots_output *output, struct error *err)
 {
-	struct run_sources sources = {calloc(count + 1, sizeof *sources.items), count};
+	struct run_sources sources = {
+		calloc(count + 1, sizeof *sources.items), count, output->dimensionless};
 	bool fronts = false;
 	int result = 0;
 
@@ -238,6 +295,8 @@ int plots_draw_runs(
 		result = draw_figure(&sources, &figures[i], output, err);
 	if (!result)
 		result = any_has(&sources, "front_position", &fronts, err);
+	if (!result && fronts)
+		result = tell_others(&sources, &output->missing, err);
 	if (!result && !fronts)
 		result = draw_found(&sources, false, output, err);
 	if (!result && !fronts)

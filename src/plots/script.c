@@ -256,7 +256,8 @@ static bool find_extent(const struct figure_panel *panel, bool along_x, double *
 	return *high > *low && isfinite(*low) && isfinite(*high);
 }
 
-/* Tics so far apart that what stands at them has room: 1, 2 or 5 times a power of ten. */
+/* Tics so far apart that what stands at them has room: 1, 2 or 5 times a power of ten. What rounding alone
+ * moves is shown as a level line. */
 static void add_tics(
 	struct text *out, const char *axis, const struct figure_panel *panel, int length, int room)
 {
@@ -266,6 +267,11 @@ static void add_tics(
 	if ((along_x ? panel->x.log : panel->y.log) || !find_extent(panel, along_x, &low, &high)) {
 		text_addf(out, "set %stics autofreq\n", axis);
 		return;
+	}
+	if (!along_x && high - low < 1e-9 * fabs(high)) {
+		low -= 0.1 * fabs(high);
+		high += 0.1 * fabs(high);
+		add_range(out, axis, &(struct figure_axis){.from = low, .to = high}, false);
 	}
 	step = (high - low) * room / length;
 	power = pow(10, floor(log10(step)));
@@ -303,7 +309,7 @@ static void add_axes(struct text *out, const struct geometry *g, const struct fi
 	add_text(out, "set ylabel", &panel->y.label);
 	text_add(out, " offset -0.2,0\n");
 	add_range(out, "x", &panel->x, all_lines(panel));
-	add_tics(out, "x", panel, g->width, 44);
+	add_tics(out, "x", panel, g->width, 50);
 	add_range(out, "y", &panel->y, false);
 	add_tics(out, "y", panel, g->height, 22);
 }

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-enum { POINTS_MAX = 1200, MAP_ROWS = 160, MAP_COLUMNS = 400 };
+enum { POINTS_MAX = 1200, MAP_ROWS = 240, MAP_COLUMNS = 400 };
 
 void script_data_add_number(struct text *out, double value)
 {
@@ -51,22 +51,18 @@ static void add_line_data(
 	text_add(out, "END\n");
 }
 
-/* The value of a map at a height between its rows. */
-static double map_value(const struct figure_map *map, double y, size_t column)
+/* The row of a map that is nearest to a height. */
+static size_t nearest_row(const struct figure_map *map, double y)
 {
 	size_t row = 0;
-	double share;
 
-	while (row + 2 < map->rows && map->y[row + 1] < y)
+	while (row + 1 < map->rows && fabs(map->y[row + 1] - y) < fabs(map->y[row] - y))
 		row++;
-	if (map->rows < 2)
-		return map->values[column];
-	share = fmin(1, fmax(0, (y - map->y[row]) / (map->y[row + 1] - map->y[row])));
-	return (1 - share) * map->values[row * map->columns + column] +
-		   share * map->values[(row + 1) * map->columns + column];
+	return row;
 }
 
-/* An image wants even steps: the rows of a map are interpolated in time. */
+/* An image wants even steps. What lies between two rows was not stored, and so is not drawn: each row is a
+ * strip that ends half way to the next. */
 static void add_map_data(struct text *out, const struct figure_map *map, size_t panel)
 {
 	size_t step = map->columns / MAP_COLUMNS + 1;
@@ -75,11 +71,12 @@ static void add_map_data(struct text *out, const struct figure_map *map, size_t 
 	text_addf(out, "$m%zu << END\n", panel);
 	for (int row = 0; row < MAP_ROWS; row++) {
 		double y = from + (to - from) * row / (MAP_ROWS - 1);
+		const double *values = map->values + nearest_row(map, y) * map->columns;
 
 		for (size_t column = 0; column < map->columns; column += step) {
 			script_data_add_number(out, map->x[column]);
 			script_data_add_number(out, y);
-			script_data_add_number(out, map_value(map, y, column));
+			script_data_add_number(out, values[column]);
 			text_add(out, "\n");
 		}
 	}

@@ -28,14 +28,28 @@ bool slice_has_axis(struct run_file *file, const char *name, const char *axis, s
 	return false;
 }
 
+/* The first of these axes that the dataset has. */
+static const char *first_axis(
+	struct run_file *file, const char *name, const char *const *axes, struct error *err)
+{
+	while (*axes && !slice_has_axis(file, name, *axes, err))
+		axes++;
+	return *axes;
+}
+
 const char *slice_layer_axis(struct run_file *file, const char *name, struct error *err)
 {
-	static const char *const axes[] = {"layer", "interface"};
+	return first_axis(file, name, (const char *const[]){"layer", "interface", NULL}, err);
+}
 
-	for (size_t i = 0; i < sizeof axes / sizeof *axes; i++)
-		if (slice_has_axis(file, name, axes[i], err))
-			return axes[i];
-	return NULL;
+const char *slice_position_axis(struct run_file *file, const char *name, struct error *err)
+{
+	return first_axis(file, name, (const char *const[]){"x", "gauge", "station", NULL}, err);
+}
+
+const char *slice_time_axis(struct run_file *file, const char *name, struct error *err)
+{
+	return first_axis(file, name, (const char *const[]){"profile_time", "time", NULL}, err);
 }
 
 /* Numbers along one dimension. */
@@ -107,6 +121,20 @@ static int find_x(struct run_file *file, double x, size_t count, size_t *index, 
 	return find_nearest(file, "x", x, index, &(double){0}, err);
 }
 
+/* One of the positions of output.gauges or output.velocity_at. */
+static int find_position(struct run_file *file, const char *axis, double x, size_t count,
+	size_t *index, struct error *err)
+{
+	double found;
+
+	if (isnan(x) && count > 1)
+		return error_set(err, EX_DATAERR, "a position is needed: at_x");
+	TRY(find_nearest(file, axis, isnan(x) ? 0 : x, index, &found, err));
+	if (!isnan(x) && !slice_same_time(found, x))
+		return error_set(err, EX_DATAERR, "no %s at %g m; the nearest is at %g m", axis, x, found);
+	return 0;
+}
+
 static int find_layer(int layer, bool interface, size_t count, size_t *index, struct error *err)
 {
 	if (layer == SLICE_TOP || (layer == SLICE_FIRST && !interface))
@@ -127,6 +155,12 @@ static int find_index(struct run_file *file, const char *name, int i, size_t cou
 {
 	if (axis_is(file, name, i, "profile_time", err))
 		return find_time(file, place->time, index, err);
+	if (axis_is(file, name, i, "time", err))
+		return find_nearest(file, "time", place->time, index, &(double){0}, err);
+	if (axis_is(file, name, i, "gauge", err))
+		return find_position(file, "gauge", place->x, count, index, err);
+	if (axis_is(file, name, i, "station", err))
+		return find_position(file, "station", place->x, count, index, err);
 	if (axis_is(file, name, i, "x", err))
 		return find_x(file, place->x, count, index, err);
 	if (axis_is(file, name, i, "layer", err))

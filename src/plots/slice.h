@@ -13,9 +13,9 @@ enum { SLICE_FIRST = 0, SLICE_TOP = -1 };
 /* Where to cut. What a dataset has no axis for is passed over. */
 struct slice_place {
 	const char *along; /* name of the axis that stays; NULL: none, one number is cut out */
-	double time;       /* profile time, s; NaN: the last */
-	double x;          /* the nearest cell is taken, m; NaN: only where there is one cell */
-	int layer;         /* from 1 at the bed; SLICE_TOP, or SLICE_FIRST for that of the axis: the top
+	double time;       /* profile time, or the nearest record of a series, s; NaN: the last */
+	double x;  /* the nearest cell is taken, or just this gauge, m; NaN: only where there is one */
+	int layer; /* from 1 at the bed; SLICE_TOP, or SLICE_FIRST for that of the axis: the top
 	                      layer, the interface at the bed */
 };
 
@@ -37,6 +37,12 @@ bool slice_has_axis(struct run_file *file, const char *name, const char *axis, s
 /* The name of the axis across the layers that a dataset has: "layer", "interface", NULL: none,
  * or `err` is set. */
 const char *slice_layer_axis(struct run_file *file, const char *name, struct error *err);
+
+/* The name of the axis of positions: "x", or "gauge" or "station" of what is recorded at few; NULL. */
+const char *slice_position_axis(struct run_file *file, const char *name, struct error *err);
+
+/* The name of the axis of times: "profile_time" or "time"; NULL. */
+const char *slice_time_axis(struct run_file *file, const char *name, struct error *err);
 
 /* The values of an axis. `values` belongs to the caller. */
 int slice_axis(

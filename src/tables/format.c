@@ -52,6 +52,44 @@ void format_cell(const struct table_column *column, const struct table_cell *cel
 	}
 }
 
+/* "1.82 mm": the number, and what is behind it; false for words. */
+static bool split_label(const char *label, double *number, const char **unit)
+{
+	char digits[TEXT_REAL_SIZE];
+	size_t length = strcspn(label, " ");
+
+	*unit = label[length] ? label + length + 1 : "";
+	if (length >= sizeof digits)
+		return false;
+	(void)snprintf(digits, sizeof digits, "%.*s", (int)length, label);
+	return text_to_real(digits, number);
+}
+
+const char *format_label_unit(const struct table *table, size_t c)
+{
+	const char *shared = NULL, *unit;
+	double number;
+
+	for (size_t row = 0; table->columns[c].label && row < table->row_count; row++) {
+		const struct table_cell *cell = &table->cells[row * table->column_count + c];
+
+		if (cell->kind != CELL_TEXT || !split_label(cell->text, &number, &unit) ||
+			(shared && strcmp(unit, shared) != 0))
+			return NULL;
+		shared = unit;
+	}
+	return shared;
+}
+
+double format_label_number(const struct table_cell *cell)
+{
+	const char *unit;
+	double number = NAN;
+
+	(void)split_label(cell->text, &number, &unit);
+	return number;
+}
+
 /* All heads of a column in one line. */
 static void join_heads(const struct table_column *column, struct text *out)
 {
@@ -131,8 +169,10 @@ static void add_csv_heads(const struct table *table, struct text *out)
 {
 	for (size_t c = 0; c < table->column_count; c++) {
 		struct text heads = {0};
+		const char *unit = format_label_unit(table, c);
 
 		join_heads(&table->columns[c], &heads);
+		text_addf(&heads, "%s%s", unit && *unit ? " " : "", unit ? unit : "");
 		add_field(out, text_string(&heads), c == 0);
 		text_add(&heads, ", \u00b1");
 		if (table->columns[c].spread)
@@ -143,16 +183,19 @@ static void add_csv_heads(const struct table *table, struct text *out)
 	text_add(out, "\r\n");
 }
 
-/* Numbers in full: a CSV file is read by programs. */
-static void add_csv_cell(
-	const struct table_column *column, const struct table_cell *cell, bool first, struct text *out)
+/* Numbers in full and without units: a CSV file is read by programs. */
+static void add_csv_cell(const struct table *table, size_t c, const struct table_cell *cell,
+	bool first, struct text *out)
 {
+	const struct table_column *column = &table->columns[c];
 	bool number = cell->kind == CELL_NUMBER;
 	char buffer[TEXT_REAL_SIZE];
 	struct text words = {0};
 
 	if (number) {
 		add_field(out, text_real(cell->value, buffer), first);
+	} else if (format_label_unit(table, c)) {
+		add_field(out, text_real(format_label_number(cell), buffer), first);
 	} else {
 		format_cell(column, cell, &words);
 		add_field(out, text_string(&words), first);
@@ -168,8 +211,7 @@ static void print_csv(const struct table *table, struct text *out)
 	add_csv_heads(table, out);
 	for (size_t row = 0; row < table->row_count; row++) {
 		for (size_t c = 0; c < table->column_count; c++)
-			add_csv_cell(
-				&table->columns[c], &table->cells[row * table->column_count + c], c == 0, out);
+			add_csv_cell(table, c, &table->cells[row * table->column_count + c], c == 0, out);
 		text_add(out, "\r\n");
 	}
 }

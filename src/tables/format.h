@@ -8,6 +8,11 @@
 void format_cell(
 	const struct table_column *column, const struct table_cell *cell, struct text *out);
 
+/* The unit, "" for none, of labels that are all numbers in one unit; NULL: they are words. The number of such
+ * a label. */
+const char *format_label_unit(const struct table *table, size_t c);
+double format_label_number(const struct table_cell *cell);
+
 /* How many lines the heads take; a head of column c in one of them, that of a label in the last; and the
  * column behind those that share all heads of c down to a line. */
 size_t format_head_lines(const struct table *table);

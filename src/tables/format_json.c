@@ -32,14 +32,16 @@ static void add_lines(struct text *out, const char *lines)
 	text_add(out, "]");
 }
 
-/* A label is a string, and so is a published value that is no number; what is blank or missing is null. */
+/* A label that is no number is a string, and so is a published value that is no number; what is blank or missing is null. */
 static void add_value(
-	struct text *out, const struct table_column *column, const struct table_cell *cell)
+	struct text *out, const struct table_column *column, const struct table_cell *cell, bool labels)
 {
 	double number;
 
 	if (cell->kind == CELL_NUMBER)
 		json_add_real(out, cell->value);
+	else if (labels)
+		json_add_real(out, format_label_number(cell));
 	else if (cell->kind == CELL_TEXT && (column->label || !text_to_real(cell->text, &number)))
 		json_add_string(out, cell->text);
 	else if (cell->kind == CELL_TEXT)
@@ -64,16 +66,23 @@ static void add_missing(struct text *out, const struct table_cell *cell)
 static void add_column(struct text *out, const struct table *table, size_t c)
 {
 	const struct table_column *column = &table->columns[c];
+	const char *unit = format_label_unit(table, c);
 	bool missing = false;
 
 	text_addf(out, "%s\n    {\"heads\": ", c ? "," : "");
 	add_strings(out, column->heads, column->head_count);
-	text_addf(out, ", \"label\": %s,\n     \"values\": [", column->label ? "true" : "false");
+	text_addf(out, ", \"label\": %s,\n", column->label ? "true" : "false");
+	if (unit && *unit) {
+		text_add(out, "     \"unit\": ");
+		json_add_string(out, unit);
+		text_add(out, ",\n");
+	}
+	text_add(out, "     \"values\": [");
 	for (size_t row = 0; row < table->row_count; row++) {
 		const struct table_cell *cell = &table->cells[row * table->column_count + c];
 
 		text_add(out, row ? ", " : "");
-		add_value(out, column, cell);
+		add_value(out, column, cell, unit != NULL);
 		missing |= cell->kind == CELL_MISSING;
 	}
 	text_add(out, "]");

@@ -103,6 +103,8 @@ pressure_solver: {operator: Symmetric}
 pressure_solver: {tolerance: 0}
 pressure_solver: {max_iterations: 1.5}
 scheme: {friction_reconstruction: dynamic}
+scheme: {viscosity_updates: -1}
+layers: 1\nscheme: {friction: coulomb, viscosity_updates: 1}
 n_ini_guess: 3
 n_ini_guess: 10
 n_ini_guess: 12

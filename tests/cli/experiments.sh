@@ -7,8 +7,11 @@ for experiment in experiments/*.yaml; do
 	[[ $experiment == */p4-cost.yaml ]] && set=(--set 'time.end=0.1 s')
 	# its reference has a grid of its own
 	[[ $experiment == */p1-table5.yaml ]] && sed -i 's/6400/40/' "$experiment"
-	# the same at every slope
-	[[ $experiment == */p3-growth.yaml ]] && sed -i 's/slope: \[.*\]/slope: [0 deg, 16 deg]/' "$experiment"
+	# the same at every slope, on every bed, with either viscosity
+	[[ $experiment == */p3-growth*.yaml ]] &&
+		sed -i 's/slope: \[.*\]/slope: [0 deg, 16 deg]/; s/\[bounded, delta\]/bounded/' "$experiment"
+	[[ $experiment == */p3-figure@(9|10|11).yaml ]] &&
+		sed -i 's/\(\[[0-9.]* mm\), [0-9.]* mm, /\1, /' "$experiment"
 	# its thin layer on steep steps does not get through seconds on so coarse a grid
 	[[ $experiment == */p1-figure7-9.yaml ]] && sed -i -E 's/([0-9]) s\b/\1 ms/g' "$experiment"
 	talus campaign run "${set[@]}" "$experiment" >out 2>err || cat out err

@@ -70,7 +70,7 @@ for format in svg png pdf; do
 	((code == 74)) && grep -q '^talus: disk/figures/.* cannot write: No space left on device; .* needed$' message ||
 		echo "$format: exit $code: $(cat message)"
 	# what is said to be there is whole
-	ls -A disk/figures | sed 's|^|disk/figures/|' | diff out - && [[ ! $(find disk/figures -size -1k) ]] || ls -l disk/figures
+	ls -A disk/figures | sed 's|^|disk/figures/|' | diff <(sort out) - && [[ ! $(find disk/figures -size -1k) ]] || ls -l disk/figures
 	head -c 64k /dev/zero >disk/rest 2>/dev/null
 	talus plot -f $format -o disk/figures straight 2>/dev/null || echo "exit $?"
 	rm -r disk/figures disk/rest

@@ -58,7 +58,7 @@ static void fractions_move_the_interfaces(void **state)
 	struct model_state *s = run(settings, 2);
 	struct axes axes = dry_model.axes(s);
 	static const double middle[] = {0.05, 0.2, 0.45, 0.8}, interface[] = {0, 0.1, 0.3, 0.6, 1};
-	double *p = calloc(5 * 160, sizeof *p), mean = 0;
+	double *p = calloc((size_t)5 * 160, sizeof *p), mean = 0;
 
 	(void)state;
 	assert_non_null(p);

@@ -797,7 +797,8 @@ static void strips_take_the_product_out_of_the_steep_columns_alone(void **state)
 
 		for (int i = 0; i < strips.count; i++)
 			inside |= strips.strips[i].first <= g && g < strips.strips[i].last;
-		for (size_t k = (size_t)g * group; k < (size_t)(g + 1) * group && k < (size_t)columns.faces * columns.stride; k++)
+		for (size_t k = (size_t)g * group;
+			 k < (size_t)(g + 1) * group && k < (size_t)columns.faces * columns.stride; k++)
 			if (inside)
 				assert_true(product[k] == 0 && fabs(again[k]) <= 1e-11 * largest);
 			else

@@ -365,9 +365,10 @@ static void kills_change_no_bit_with_any_pressure_solver(void **state)
 	static const char common[] = "domain.cells=70;layers=3;time.end=0.25;output.profiles_at=[]";
 	static const uint64_t kills[] = {14, 9}; /* begins at 0, at 10, and at 15 to the end */
 	const char *const *names = field_find(&config_table, "pressure_solver.method")->choices;
-	struct model deadly = dry_model;
+	static struct model deadly;
 
 	(void)state;
+	deadly = dry_model;
 	deadly.step = deadly_step;
 	model_in_use = &deadly;
 	logistic.number = SIGKILL;

@@ -179,14 +179,14 @@ static void fields_at_positions_follow_the_series(void **state)
 	}
 	assert_int_equal(data[2].extent[2], 3);
 	for (int i = 0; i < 3; i++) { /* cells of this model are 1 m apart */
-		const double *row = h.values + 2 * 16, at[] = {0, 0.25, 1};
+		const double *row = h.values + (size_t)2 * 16, at[] = {0, 0.25, 1};
 
 		assert_near(
 			data[0].values[last * 3 + (size_t)i], row[0] + at[i] * (row[1] - row[0]), 1e-15);
 	}
 	assert_near(data[1].values[last], 0.5 * (h.values[32] + h.values[33]), 1e-15);
 	for (size_t a = 0; a < 3; a++) {
-		const double *row = u.values + (2 * 3 + a) * 16;
+		const double *row = u.values + ((size_t)2 * 3 + a) * 16;
 
 		assert_near(data[2].values[last * 3 + a], 0.5 * (row[0] + row[1]), 1e-15);
 	}

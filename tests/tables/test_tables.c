@@ -157,6 +157,9 @@ static void add_layers(struct image *image, const struct content *content, size_
 	add_series(image, "max_speed", speed);
 	add_series(image, "fluid_transfer", transfer);
 	add_series(image, "solid_mass", mass);
+	add_series(image, "mass", (double[]){2, 1.5, 1});
+	add_series(image, "mass_outflow", (double[]){0, 0.5, 1 + ldexp(1, -50)});
+	add_series(image, "front_velocity", (double[]){2, 0.5, 0.75});
 	for (int k = 0; k < 2; k++)
 		image_dataset(image, &(struct image_data){.path = k ? "v" : "v_steady",
 								 .units = "m s-1",
@@ -539,6 +542,26 @@ static void numbers_of_series_are_those_of_the_whole_run(void **state)
 	experiment_clean(&experiment);
 }
 
+static void mass_drifts_by_what_did_not_leave_and_fronts_begin_after_the_release(void **state)
+{
+	struct experiment experiment =
+		read_experiment("base: base.yaml\nruns: [{layers: 2}]\ntables: [{name: t, rows: layers, "
+						"metric: [mass-drift, "
+						"first-front-velocity, front-velocity, front-velocity-time]}]\n");
+	struct content content = complete(1, 1);
+
+	(void)state;
+	make_run(&experiment.runs[0], &content);
+	/* 2 + 2^-50 for 2; of the velocities 2, 0.5, 0.75 at 0, 0.15, 0.3 the first is the jump from the gate */
+	assert_table(&experiment, "text",
+		"t\n"
+		"\n"
+		"layers  mass drift 1e-15  front at first m/s  fastest front m/s  fastest at s\n"
+		"-----------------------------------------------------------------------------\n"
+		"2                    0.4               0.500              0.750         0.300\n" NOTES);
+	experiment_clean(&experiment);
+}
+
 static void an_unfinished_run_is_missing_and_named(void **state)
 {
 	struct experiment e = read_experiment(
@@ -618,6 +641,35 @@ static void other_builds_and_machines_are_flagged_where_times_compare(void **sta
 		free(text);
 		experiment_clean(&e);
 	}
+}
+
+static void labels_are_numbers_to_programs_where_they_share_a_unit(void **state)
+{
+	struct experiment e = read_experiment(
+		"title: Units\n"
+		"base: base.yaml\n"
+		"runs: [{slope: [0 deg, 22.5 deg], erodible_bed_thickness: [1 mm, 2 cm], layers: [4]}]\n"
+		"tables: [{name: t, rows: [slope, erodible_bed_thickness, layers, pressure], metric: "
+		"runout}]\n");
+	struct content content = complete(1, 9);
+	struct text missing;
+	char *text;
+
+	(void)state;
+	for (size_t i = 0; i < e.run_count; i++)
+		make_run(&e.runs[i], &content);
+	assert_table(&e, "csv",
+		"slope deg,erodible_bed_thickness,layers,pressure,runout m\r\n"
+		"0,1 mm,4,non-hydrostatic,1.25\r\n0,2 cm,4,non-hydrostatic,1.25\r\n"
+		"22.5,1 mm,4,non-hydrostatic,1.25\r\n22.5,2 cm,4,non-hydrostatic,1.25\r\n");
+	text = print(&e, "json", &missing);
+	assert_non_null(
+		strstr(text, "{\"heads\": [\"slope\"], \"label\": true,\n     \"unit\": \"deg\",\n"
+					 "     \"values\": [0, 0, 22.5, 22.5]},"));
+	assert_non_null(strstr(text, "\"values\": [\"1 mm\", \"2 cm\", \"1 mm\", \"2 cm\"]},"));
+	free(text);
+	text_clean(&missing);
+	experiment_clean(&e);
 }
 
 static void markdown_and_csv_survive_their_own_marks(void **state)
@@ -808,9 +860,11 @@ int main(void)
 		TEST(a_reference_whose_grid_does_not_fit_is_refused),
 		TEST(an_order_needs_another_grid_in_the_row_before),
 		TEST(numbers_of_series_are_those_of_the_whole_run),
+		TEST(mass_drifts_by_what_did_not_leave_and_fronts_begin_after_the_release),
 		TEST(an_unfinished_run_is_missing_and_named),
 		TEST(a_cell_keeps_the_median_of_the_repeats_that_are_there),
 		TEST(other_builds_and_machines_are_flagged_where_times_compare),
+		TEST(labels_are_numbers_to_programs_where_they_share_a_unit),
 		TEST(markdown_and_csv_survive_their_own_marks),
 		TEST(only_chooses_runs_by_value_however_written),
 		TEST(latex_and_json_survive_their_own_marks),
