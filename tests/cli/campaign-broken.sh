@@ -15,7 +15,7 @@ rm layers-5-*/run*.h5 && ln -s nowhere "$(echo layers-5-*)/run.h5"
 printf 'x: [' >"$(echo layers-6-*)/config.yaml"
 cd ../..
 talus campaign status study.yaml | mask | sed -E 's/ +[0-9.]+ %.*(  [^ ])/ \1/; s/ +[0-9.]+ %.*//'
-masked talus campaign run -j 1 study.yaml 2>&1 | sed -E 's/[0-9T:Z-]{20} attempt/DATE attempt/'
+masked talus campaign run -j 1 --order given study.yaml 2>&1 | sed -E 's/[0-9T:Z-]{20} attempt/DATE attempt/'
 echo "exit ${PIPESTATUS[0]}"
 talus campaign why study.yaml | mask | grep -E '^(layers|  (state|next))'
 talus campaign prune study.yaml

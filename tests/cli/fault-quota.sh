@@ -42,8 +42,10 @@ for ((room = 16; room < 8 * size; room += 4 + size / 3)); do
 done
 ((stops > 2 && resumed)) || echo "stopped $stops times by the quota, $resumed of them with a checkpoint"
 
-printf 'base: collapse.yaml\nset: {checkpoint.every_steps: 20}\nruns: [{layers: [4, 5, 6, 7, 8]}]\n' >study.yaml
-limit $((11 * size))
+# each run takes two generations of at least the size of the first one, and one more while it writes
+printf 'base: collapse.yaml\nset: {checkpoint.every_steps: 20, output.profiles_at: [0.02, 0.05, 0.1, 0.15]}
+runs: [{layers: [4, 5, 6, 7, 8]}]\n' >study.yaml
+limit $((6 * size))
 masked talus campaign run -j 1 --order given -o disk/mine/study study.yaml >out 2>message
 echo "exit $?"
 grep -q 'Disk quota exceeded' message || cat message
