@@ -188,6 +188,9 @@ bool config_symmetric_only(int method);
 bool config_bed_is_absolute(const struct config *config);
 bool config_bed_is_given_here(const struct config *config);
 
+/* h_i in the coordinates of the run, m: a layer normal to the plane is thicker along the vertical. */
+double config_bed_thickness(const struct config *config);
+
 /* The same from a text that is parsed already: one base for many configs. `name` must be that of
  * the text. */
 struct node;

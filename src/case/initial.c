@@ -142,6 +142,8 @@ static void draw(const struct config *config, const struct grid *grid, double al
 		from = fmax(from, list->values[0]);
 		to = fmin(to, list->values[list->count - 2]);
 	}
+	if (from >= to)
+		return; /* the points are elsewhere */
 	step = (to - from) / places;
 	for (int k = 0; k <= places; k++) {
 		double x = k < places ? from + k * step : to;
@@ -159,17 +161,17 @@ static void draw(const struct config *config, const struct grid *grid, double al
 static int check_bed(const struct config *config, const struct turn *turn,
 	const struct outline *outline, const struct grid *grid, struct error *err)
 {
-	double at;
+	double at = NAN;
 
-	if (turn_reaches(turn, outline->x, outline->bed, outline->count, grid, &at))
+	if (outline->count && turn_reaches(turn, outline->x, outline->bed, outline->count, grid, &at))
 		return 0;
 	if (isfinite(at))
 		return error_set(err, EX_DATAERR,
 			"topography: at x = %g m the bed is too steep to be changed into %s coordinates", at,
 			config->coordinates == COORDINATES_LOCAL ? "local" : "cartesian");
 	return error_set(err, EX_DATAERR,
-		"topography.points: changed into %s coordinates they do not reach from domain.x_min to "
-		"domain.x_max",
+		"%s: changed into %s coordinates they do not reach from domain.x_min to domain.x_max",
+		config->topography.shape == TOPOGRAPHY_FILE ? "topography.points" : "topography",
 		config->coordinates == COORDINATES_LOCAL ? "local" : "cartesian");
 }
 
@@ -199,9 +201,29 @@ static int fill_turned(
 	return status;
 }
 
+/* Grains that leave at one end come in at the other, onto the same bed. */
+static int check_ends(const struct config *config, const struct grid *grid, struct error *err)
+{
+	double left, right;
+
+	if (!grid->periodic || config->topography.shape == TOPOGRAPHY_PLANE ||
+		config->topography.shape == TOPOGRAPHY_RANDOM)
+		return 0;
+	left = topography_bed(config, config->domain.x_min);
+	right = topography_bed(config, config->domain.x_max);
+	if (fabs(left - right) <= 1e-9 * fmax(1, fabs(left)))
+		return 0;
+	return error_set(err, EX_DATAERR,
+		"topography: periodic ends need one bed at both, and it is %g m at the left end and %g m "
+		"at the "
+		"right one",
+		left, right);
+}
+
 int initial_fill(
 	const struct config *config, const struct grid *grid, double *b, double *h, struct error *err)
 {
+	TRY(check_ends(config, grid, err));
 	TRY((config_bed_is_given_here(config) ? fill_here : fill_turned)(config, grid, b, h, err));
 	grid_fill_even(grid, b);
 	grid_fill_even(grid, h);

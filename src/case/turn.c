@@ -72,22 +72,27 @@ int turn_profile(const struct config *config, const double *x, const double *b, 
 {
 	bool cartesian = config->coordinates == COORDINATES_CARTESIAN;
 	struct turn turn = cartesian ? turn_to_local(config->slope) : turn_to_cartesian(config->slope);
-	size_t size = 2 * (size_t)cells + 2 * onto->stride;
-	double *bed = calloc(size, sizeof *bed), *surface, *below, *above;
+	size_t points = (size_t)cells + 2, size = 3 * points + 2 * onto->stride;
+	double *at = calloc(size, sizeof *at), *bed, *surface, *below, *above;
+	double half = cells > 1 ? 0.5 * (x[1] - x[0]) : 0;
 
-	if (!bed)
-		return error_memory(err, size * sizeof *bed);
-	surface = bed + cells;
-	below = surface + cells;
+	if (!at)
+		return error_memory(err, size * sizeof *at);
+	bed = at + points;
+	surface = bed + points;
+	below = surface + points;
 	above = below + onto->stride;
-	for (int i = 0; i < cells; i++) {
-		bed[i] = b[i] - (cartesian ? topography_plane(config, x[i]) : 0);
-		surface[i] = bed[i] + h[i];
+	for (int k = 0; k < cells + 2; k++) { /* the half cells at the ends are as their middles */
+		int i = k == 0 ? 0 : k > cells ? cells - 1 : k - 1;
+
+		at[k] = x[i] + (k == 0 ? -half : k > cells ? half : 0);
+		bed[k] = b[i] - (cartesian ? topography_plane(config, x[i]) : 0);
+		surface[k] = bed[k] + h[i];
 	}
-	turn_add(&turn, x, bed, cells, onto, below);
-	turn_add(&turn, x, surface, cells, onto, above);
+	turn_add(&turn, at, bed, cells + 2, onto, below);
+	turn_add(&turn, at, surface, cells + 2, onto, above);
 	for (int i = 1; i <= onto->cells; i++)
 		out[i - 1] = above[i] - below[i];
-	free(bed);
+	free(at);
 	return 0;
 }

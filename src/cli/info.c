@@ -75,7 +75,9 @@ static int add_outcome(
 		TRY(run_file_has(file, metric->dataset, &has, err));
 		if (!has)
 			continue;
-		if (metric->value(&sample, &value, &refusal) == 0)
+		if (metric->value(&sample, &value, &refusal) == 0 && !isfinite(value))
+			text_addf(out, "  %-23snone\n", names[i]);
+		else if (!refusal.code)
 			text_addf(
 				out, "  %-23s%.4g%s%s\n", names[i], value, *metric->unit ? " " : "", metric->unit);
 		else if (refusal.code == EX_DATAERR)

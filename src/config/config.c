@@ -82,6 +82,15 @@ static int check_layers(
 	return err->code ? field_blame(reader, "n_ini_guess", "layers", -1, err) : 0;
 }
 
+/* Shapes that end at a gate. */
+static bool has_front(const struct config *config)
+{
+	int shape = config->initial.shape;
+
+	return shape == SHAPE_COLUMN || shape == SHAPE_TRIANGLE || shape == SHAPE_CAP ||
+		   config->gate.speed != 0;
+}
+
 static int check_domain(
 	const struct config *config, const struct field_reader *reader, struct error *err)
 {
@@ -94,7 +103,7 @@ static int check_domain(
 			text_real(x_min, first), text_real(x_max, second));
 		return field_blame(reader, "domain.x_min", "domain.x_max", -1, err);
 	}
-	if (front >= x_min && front <= x_max)
+	if (!has_front(config) || (front >= x_min && front <= x_max))
 		return 0;
 	(void)error_set(err, EX_DATAERR, "initial.front: %s m is outside the domain, %s m is its %s",
 		text_real(front, first), text_real(front < x_min ? x_min : x_max, second),

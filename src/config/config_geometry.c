@@ -82,10 +82,13 @@ static int check_friction(
 	if (config->scheme.friction == FRICTION_VISCOUS)
 		return 0;
 	if (config->walls.mu_w > 0 || config->bottom == BOTTOM_NO_SLIP ||
-		config->rheology.strain_rate == STRAIN_RATE_SECOND_ORDER) {
+		config->rheology.strain_rate == STRAIN_RATE_SECOND_ORDER ||
+		config->regularisation.viscosity == VISCOSITY_BOUNDED) {
 		const char *key = config->walls.mu_w > 0             ? "walls.mu_w"
 						  : config->bottom == BOTTOM_NO_SLIP ? "bottom"
-															 : "rheology.strain_rate";
+						  : config->regularisation.viscosity == VISCOSITY_BOUNDED
+							  ? "regularisation.viscosity"
+							  : "rheology.strain_rate";
 
 		(void)error_set(err, EX_DATAERR,
 			"scheme.friction: coulomb knows neither side walls nor viscous stresses, which %s asks "

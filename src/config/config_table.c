@@ -1,5 +1,7 @@
 #include "config/config_table.h"
 
+#include <math.h>
+
 #include "talus/config.h"
 
 /* A key is the path of its member, but for `operator`, which C++ keeps for itself. */
@@ -306,6 +308,15 @@ bool config_bed_is_given_here(const struct config *config)
 
 	return given == GIVEN_SAME || config->slope <= 0 ||
 		   (given == GIVEN_CARTESIAN) == (config->coordinates == COORDINATES_CARTESIAN);
+}
+
+double config_bed_thickness(const struct config *config)
+{
+	double given = config->erodible_bed_thickness, cos_slope = (double)cosl(config->slope);
+
+	if (config_bed_is_given_here(config))
+		return given;
+	return config->coordinates == COORDINATES_LOCAL ? given * cos_slope : given / cos_slope;
 }
 
 const struct field_table config_table = {fields, sizeof fields / sizeof *fields, "model"};

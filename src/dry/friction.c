@@ -296,7 +296,7 @@ KERNEL static void friction(struct model_state *s, struct chunk chunk, double dt
 
 	for (int k = 0; k < c.cells; k++)
 		thin |= h[k] < DRY_ONE_LAYER;
-	if (thin)
+	if (thin && !s->par.coulomb)
 		slide_as_one(s, chunk, h, c.cells, dt);
 	friction_thickness(s, chunk, &c);
 	if (s->par.coulomb) {

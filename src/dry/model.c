@@ -38,7 +38,7 @@ static struct dry_parameters parameters(const struct config *config)
 			.second_order = config->rheology.strain_rate == STRAIN_RATE_SECOND_ORDER,
 			.bounded = config->regularisation.viscosity == VISCOSITY_BOUNDED,
 			.walls = config->walls.mu_w > 0},
-		.bed = config->erodible_bed_thickness,
+		.bed = config_bed_thickness(config),
 		.cfl = config->time.cfl,
 		.front_threshold = config->output.front_threshold,
 		.static_speed = config->output.static_speed,

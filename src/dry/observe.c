@@ -294,10 +294,24 @@ static double shear(const struct model_state *s, int a, int i)
 	return s->h[i] > DRY_NO_MOMENTUM ? fabs(jump) / (apart * s->h[i]) : 0;
 }
 
+/* Twice the d_x u that goes with it, P3 (55), as friction takes it. */
+static double stretch(const struct model_state *s, int a, int i)
+{
+	const double *above = s->u + (size_t)a * s->grid.stride + i, *below = above;
+
+	if (a == s->layers || (a == 0 && s->par.friction.no_slip))
+		return 0;
+	if (a > 0)
+		below -= s->grid.stride;
+	return 0.5 * (above[1] - above[-1] + below[1] - below[-1]) / s->grid.dx;
+}
+
 /* mu(I) there. Where nothing presses and nothing is sheared, as at the surface, it is mu_s. */
 static double friction(const struct model_state *s, int a, int i)
 {
-	return dry_mu(&s->par, shear(s, a, i), fmax(0, total_pressure(s, a, i)));
+	double rate = shear(s, a, i), along = s->par.friction.second_order ? stretch(s, a, i) : 0;
+
+	return dry_mu(&s->par, sqrt(rate * rate + along * along), fmax(0, total_pressure(s, a, i)));
 }
 
 static void each_interface(const struct model_state *s, double scale,

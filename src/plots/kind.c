@@ -166,7 +166,7 @@ static void leave_bed_out(const struct kind_request *request, const struct kind_
 	if (!request->wanted->above_bed || !run->config || strcmp(name, "h") != 0)
 		return;
 	for (size_t i = 0; i < count; i++)
-		values[i] -= run->config->erodible_bed_thickness;
+		values[i] -= config_bed_thickness(run->config);
 }
 
 static int lacks(const struct kind_request *request, const struct kind_run *run, struct error *err)
@@ -427,6 +427,8 @@ static int add_map(const struct kind_request *request, const struct kind_run *ru
 	double factor;
 	int result = -1;
 
+	if (request->wanted->coordinates != GIVEN_SAME)
+		return error_set(err, EX_DATAERR, "a map cannot be shown in other coordinates");
 	if (slice_axis(run->file, "profile_time", &map.y, &map.rows, err))
 		return lacks(request, run, err);
 	for (size_t row = 0; row < map.rows; row++) {

@@ -59,7 +59,7 @@ static int drawings_open(
 		if (!(formats & 1U << i))
 			continue;
 		++*count;
-		*one = (struct drawing){.format = format_names[i], .fd = memfd_create(name, 0)};
+		*one = (struct drawing){.format = format_names[i], .fd = memfd_create("figure", 0)};
 		(void)snprintf(one->source, sizeof one->source, "/dev/fd/%d", one->fd);
 		if (asprintf(&one->name, "%s.%s", name, one->format) < 0) {
 			one->name = NULL;

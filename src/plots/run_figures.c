@@ -270,7 +270,10 @@ static int tell_others(const struct run_sources *sources, struct text *missing, 
 		TRY(run_file_has(sources->items[i].file, "front_position", &has, err));
 		if (has)
 			continue;
-		TRY(run_file_text(sources->items[i].file, "model", &model, err));
+		if (run_file_text(sources->items[i].file, "model", &model, err)) {
+			text_clean(&model);
+			return -1;
+		}
 		text_addf(missing,
 			"run %s: not drawn, model: %s has other figures than the rest; plot it on its own\n",
 			sources->items[i].name, text_string(&model));

@@ -122,7 +122,7 @@ static int runout_change(const struct sample *sample, double *out, struct error 
 static int deposit_height(const struct sample *sample, double *out, struct error *err)
 {
 	TRY(metric_series_last(sample, out, err));
-	*out -= sample->config->erodible_bed_thickness;
+	*out -= config_bed_thickness(sample->config);
 	return 0;
 }
 
@@ -168,15 +168,18 @@ static int read_thickness(
  * are against the mass above the erodible bed. */
 static int difference(const struct sample *sample, int power, double *out, struct error *err)
 {
-	double *h = NULL, *reference = NULL, above = 0, apart = 0;
+	const struct config *here = sample->config, *there = sample->partner_config;
+	double *h = NULL, *reference = NULL, above = 0, apart = 0, bed = config_bed_thickness(there);
 	size_t cells = 0, reference_cells = 0;
 	int result = -1;
 
+	if (here->coordinates == there->coordinates &&
+		(here->domain.x_min != there->domain.x_min || here->domain.x_max != there->domain.x_max))
+		return error_set(err, EX_DATAERR, "its domain is not that of the reference");
 	if (read_thickness(sample->file, sample->at, &h, &cells, err) ||
 		read_thickness(sample->partner, sample->at, &reference, &reference_cells, err))
 		goto done;
-	if (sample->config->coordinates != sample->partner_config->coordinates &&
-		metric_turn_thickness(sample, &h, &cells, err))
+	if (here->coordinates != there->coordinates && metric_turn_thickness(sample, &h, &cells, err))
 		goto done;
 	if (cells != reference_cells) {
 		error_set(
@@ -185,7 +188,7 @@ static int difference(const struct sample *sample, int power, double *out, struc
 	}
 	for (size_t i = 0; i < cells; i++) {
 		apart += pow(fabs(h[i] - reference[i]), power);
-		above += pow(fabs(reference[i] - sample->config->erodible_bed_thickness), power);
+		above += pow(fabs(reference[i] - bed), power);
 	}
 	*out = 100 * pow(apart / above, 1.0 / power);
 	result = 0;
@@ -337,7 +340,7 @@ static int l2_observed(const struct sample *sample, double *out, struct error *e
 		!metric_read(sample->file, "x", &x, err))
 		result = cells == metric_count(&x)
 					 ? distance(&line, x.values, h, cells, half_cell(&x),
-						   sample->config->erodible_bed_thickness, out, err)
+						   config_bed_thickness(sample->config), out, err)
 					 : error_set(err, EX_DATAERR, "dataset 'h' is not as long as 'x'");
 	observed_line_clean(&line);
 	free(h);

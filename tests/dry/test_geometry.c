@@ -169,6 +169,18 @@ static void a_turned_body_keeps_its_area(void **state)
 }
 
 /* The bed of Cartesian coordinates has the plane, of which the pressure force sees the slope. */
+/* A layer normal to the plane is thicker along the vertical: it is no front. */
+static void the_front_is_above_the_turned_bed_layer(void **state)
+{
+	struct model_state *s = BEGIN("coordinates=cartesian", "topography.coordinates=local",
+		"erodible_bed_thickness=20 mm", "initial.height=50 mm");
+	double front = observed(s, "front_position");
+
+	(void)state;
+	assert_true(fabs(front) < 0.05 * s->par.tan_slope + 3 * s->grid.dx);
+	dry_model.free(s);
+}
+
 static void the_plane_is_a_part_of_a_cartesian_bed(void **state)
 {
 	struct model_state *s = BEGIN(COLLAPSE, "coordinates=cartesian");
@@ -263,6 +275,7 @@ int main(void)
 		cmocka_unit_test(level_grains_rest_on_a_bed_that_stands_out),
 		cmocka_unit_test(the_thickness_of_25_keeps_what_h_does_not),
 		cmocka_unit_test(a_turned_body_keeps_its_area),
+		cmocka_unit_test(the_front_is_above_the_turned_bed_layer),
 		cmocka_unit_test(the_plane_is_a_part_of_a_cartesian_bed),
 		cmocka_unit_test(flows_on_beds_keep_their_mass_and_lose_energy),
 		cmocka_unit_test(the_gate_takes_up_the_grains_behind_it),
