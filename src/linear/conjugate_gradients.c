@@ -1,7 +1,11 @@
 /* Conjugate gradients on the symmetric operator, preconditioned by the operator without its xi terms,
  * which fast diagonalisation solves exactly; where these terms are large, strips of columns are eliminated.
  * An iteration is three passes over the columns: new residual and its modes; tridiagonal systems of
- * the modes; new direction and its product with the matrix. */
+ * the modes; new direction and its product with the matrix.
+ *
+ * On a periodic system (S A S, pressure_system.h) the iteration is the same with S after the product and after
+ * the preconditioner; vectors stay the same on both sides of the seam, so that products of two of them
+ * may be taken before S. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -105,6 +109,27 @@ static double total(const double *sums, int count)
 static size_t group_at(const struct memory *m, int group)
 {
 	return (size_t)group * LANES * m->columns.stride;
+}
+
+/* S of some columns. */
+static void join(const struct memory *m, double *columns)
+{
+	size_t stride = m->columns.stride;
+	double *last = columns + (size_t)(m->columns.faces - 1) * stride;
+
+	for (size_t a = 0; a < stride; a++)
+		pressure_system_join(&columns[a], &last[a]);
+}
+
+/* r r, from the sums by groups; the seam has half of its residual on either side. */
+KERNEL static double residual_square(
+	const struct memory *m, const struct pressure_system *system)
+{
+	double sum = total(m->sums, m->columns.groups);
+
+	if (system->periodic)
+		sum += 2 * kernel_dot(m->residual, m->residual, (int)m->columns.stride);
+	return sum;
 }
 
 /* Right side into the residual; sums: its square. */
@@ -267,6 +292,8 @@ static void eliminate(struct memory *m, const struct pressure_system *system)
 		}
 	}
 	strips_correct(&m->strips, system, m->direction, m->product, m->sums);
+	if (system->periodic)
+		join(m, m->product);
 	m->alpha = 1;
 }
 
@@ -279,12 +306,14 @@ static void begin(struct memory *m, const struct pressure_system *system)
 	fast_diagonal_prepare(&m->fast, system);
 	pass(m, system, fast_diagonal_blocks(&m->fast), factor_modes);
 	pass(m, system, groups, take_right_side);
-	m->scale = sqrt(total(m->sums, groups));
+	m->scale = sqrt(residual_square(m, system));
 	for (size_t i = 0; i < all; i++)
 		m->x[i] = 0;
 	if (!starts_at_zero(system)) {
 		pass(m, system, groups, take_start);
 		pass(m, system, groups, multiply_start);
+		if (system->periodic)
+			join(m, m->product);
 		for (size_t i = 0; i < all; i++)
 			m->residual[i] -= m->product[i];
 	}
@@ -324,7 +353,7 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 		double square, energy;
 
 		pass(m, system, groups, take_step);
-		square = total(m->sums, groups);
+		square = residual_square(m, system);
 		stop = stop || (rule->criterion == CRITERION_RESIDUAL && square <= limit);
 		if (stop || square == 0)
 			break;
@@ -336,12 +365,16 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 		}
 		pass(m, system, blocks, solve_modes);
 		energy = total(m->sums, blocks);
+		if (system->periodic)
+			fast_diagonal_join(&m->fast, m->modes);
 		m->beta = last > 0 ? energy / last : 0;
 		last = energy;
 		pass(m, system, groups, turn_and_multiply);
 		pass(m, system, groups, multiply_edges);
 		strips_correct(&m->strips, system, m->direction, m->product, m->sums);
 		m->alpha = energy / total(m->sums, groups);
+		if (system->periodic)
+			join(m, m->product);
 		stop = rule->criterion == CRITERION_INCREMENT &&
 			   increment(m, system, rule->norm) < rule->tolerance;
 	}
@@ -354,6 +387,7 @@ const struct pressure_solver conjugate_gradients = {
 	.method = METHOD_CONJUGATE_GRADIENTS,
 	.matrix_free = true,
 	.symmetric_only = true,
+	.periodic = true,
 	.create = create,
 	.solve = solve,
 	.free = destroy,

@@ -183,6 +183,15 @@ KERNEL void fast_diagonal_solve(
 	}
 }
 
+void fast_diagonal_join(const struct fast_diagonal *fast, float *modes)
+{
+	size_t stride = 2 * fast->half;
+	float *last = modes + (size_t)(fast->columns.faces - 1) * stride;
+
+	for (size_t m = 0; m < stride; m++)
+		modes[m] = last[m] = 0.5F * (modes[m] + last[m]);
+}
+
 /* Sums over the even and the odd layers, eight columns by sixteen modes in registers at a time; a mode
  * is their sum, and its partner their difference. */
 KERNEL void fast_diagonal_to_modes(

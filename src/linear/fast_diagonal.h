@@ -55,6 +55,9 @@ void fast_diagonal_to_modes(
 void fast_diagonal_to_layers(
 	const struct fast_diagonal *fast, float *modes, double *to, int first, int last);
 
+/* The modes of the first and the last face become their mean. */
+void fast_diagonal_join(const struct fast_diagonal *fast, float *modes);
+
 /* Solve the systems of blocks [first, last) of modes in place. Returns in `sums` [blocks] the product of
  * right side and solution, which the preconditioned residual norm is made of. */
 void fast_diagonal_solve(
