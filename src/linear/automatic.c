@@ -60,7 +60,8 @@ static int create(
 	m->method = METHOD_CONJUGATE_GRADIENTS;
 	m->kept[HOLD] = SHORTEST_HOLD;
 	if (conjugate_gradients.create(layers, faces, options, &m->gradients, err) != 0 ||
-		(!options->periodic && layers <= DIRECT_LAYERS && 8.0 * layers * (double)columns.stride * faces <= DIRECT_BYTES &&
+		(!options->periodic && layers <= DIRECT_LAYERS &&
+			8.0 * layers * (double)columns.stride * faces <= DIRECT_BYTES &&
 			block_direct.create(layers, faces, options, &m->direct, err) != 0)) {
 		destroy(m);
 		return -1;

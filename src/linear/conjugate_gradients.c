@@ -122,8 +122,7 @@ static void join(const struct memory *m, double *columns)
 }
 
 /* r r, from the sums by groups; the seam has half of its residual on either side. */
-KERNEL static double residual_square(
-	const struct memory *m, const struct pressure_system *system)
+KERNEL static double residual_square(const struct memory *m, const struct pressure_system *system)
 {
 	double sum = total(m->sums, m->columns.groups);
 
