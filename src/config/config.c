@@ -194,9 +194,8 @@ static int check_ends(
 		return 0;
 	if (config->pressure_solver.operator_ == OPERATOR_POINTWISE) {
 		(void)error_set(err, EX_DATAERR,
-			"pressure_solver.operator: pointwise has rows of its own at walls and outflows (P1 "
-			"37), "
-			"none at periodic ends; they take symmetric");
+			"pressure_solver.operator: pointwise has rows at walls and outflows (P1 37), none at "
+			"periodic ends; they take symmetric");
 		return field_blame(reader, "pressure_solver.operator", "domain.left", -1, err);
 	}
 	if (config_periodic_too(config->pressure_solver.method))

@@ -25,7 +25,7 @@ struct memory {
 	double *sums;    /* [groups or blocks, whichever is more] */
 	float *modes;    /* columns of modes */
 	void *block;
-	bool periodic;
+	bool periodic;      /* the systems */
 	double scale;       /* |b| */
 	double alpha, beta; /* of the pass at hand */
 };

@@ -38,7 +38,7 @@ struct pressure_system {
 	int layers, faces;
 
 	bool symmetric; /* `cells` hold the matrix */
-	bool periodic;  /* of a symmetric system: the right side is that of both halves of the seam */
+	bool periodic;  /* of a symmetric one: the ends are a seam */
 	struct pressure_cells cells;
 
 	/* The bands, each [layers][faces]; NULL in a matrix-free system. Row (a, f) couples to faces f - 1,

@@ -153,7 +153,7 @@ static void rules_across_fields_blame_the_later_value(void **state)
 			"a.yaml:5:27: pressure_solver.method: block-direct knows walls and outflows; periodic "
 			"ends take auto or conjugate-gradients"},
 		{"pressure_solver: {operator: pointwise}\ndomain: {left: periodic, right: periodic}\n",
-			"a.yaml:5:16: pressure_solver.operator: pointwise has rows of its own at walls and "
+			"a.yaml:5:16: pressure_solver.operator: pointwise has rows at walls and "
 			"outflows (P1 37), none at periodic ends; they take symmetric"},
 		{"layer_fractions: [0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.15, 0.05]\n",
 			"a.yaml:4:18: layer_fractions: they need pressure: hydrostatic; the non-hydrostatic "
