@@ -325,10 +325,11 @@ static int check_observed(const struct layout *layout, const struct measure *mea
 
 		if (layout->places[i].row == LAYOUT_NOWHERE)
 			continue;
-		TRY(layout_observed(layout, run, metric->observes, metric->profile, &observed, err));
+		TRY(layout_observed(
+			layout, run, metric->observes, metric->extent != METRIC_RUN, &observed, err));
 		if (!observed)
 			return layout_fail(layout, term, err, "run %s has no observations of %s over %s",
-				run->id, metric->observes, metric->profile ? "x" : "time");
+				run->id, metric->observes, metric->extent != METRIC_RUN ? "x" : "time");
 		result = observed_line(observed, metric->observes, at, &line, err);
 		if (!result && line.count < 2)
 			result = layout_fail(layout, term, err,
@@ -346,13 +347,13 @@ static int add_measure(struct layout *layout, const struct metric *metric, const
 	struct measure *measure = &layout->measures[layout->measure_count++];
 
 	*measure = (struct measure){metric, NAN, at ? at->text : NULL, NAN, x ? x->text : NULL};
-	if (metric->profile == METRIC_COLUMN && !x)
+	if (metric->extent == METRIC_COLUMN && !x)
 		return layout_fail(layout, name, err, "%s is taken at a position: 'at_x'", metric->name);
 	if (x && quantity_read(x->text, "m", &measure->x, err))
 		return layout_place_error(layout, x, err);
 	if (at && quantity_read(at->text, "s", &measure->at, err))
 		return layout_place_error(layout, at, err);
-	if (metric->profile)
+	if (metric->extent != METRIC_RUN)
 		TRY(layout_check_time(
 			layout, at ? at : name, measure->at, at ? at->text : "time.end", err));
 	return metric->observes ? check_observed(layout, measure, at ? at : name, err) : 0;
@@ -383,14 +384,14 @@ static int list_measures(struct layout *layout, struct error *err)
 				nearest);
 			return -1;
 		}
-		size_t times = metric->profile && at->count ? at->count : 1;
-		size_t positions = metric->profile == METRIC_COLUMN && at_x->count ? at_x->count : 1;
+		size_t times = metric->extent != METRIC_RUN && at->count ? at->count : 1;
+		size_t positions = metric->extent == METRIC_COLUMN && at_x->count ? at_x->count : 1;
 
 		for (size_t k = 0; k < times; k++)
 			for (size_t p = 0; p < positions; p++)
 				TRY(add_measure(layout, metric, &names->items[i],
-					metric->profile ? term(at, k) : NULL,
-					metric->profile == METRIC_COLUMN ? term(at_x, p) : NULL, err));
+					metric->extent != METRIC_RUN ? term(at, k) : NULL,
+					metric->extent == METRIC_COLUMN ? term(at_x, p) : NULL, err));
 	}
 	return 0;
 }

@@ -94,7 +94,7 @@ static double evaluate(struct measured *measured, size_t index, struct run_file 
 		sample.partner_config = &measured->layout->experiment->runs[partner].config;
 	}
 	if ((metric->observes && layout_observed(measured->layout, run, metric->observes,
-								 metric->profile, &sample.observed, &refusal)) ||
+								 metric->extent != METRIC_RUN, &sample.observed, &refusal)) ||
 		metric->value(&sample, &value, &refusal)) {
 		if (refusal.code != EX_SOFTWARE)
 			return miss(measured, index, metric->name, refusal.text);

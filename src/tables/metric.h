@@ -33,7 +33,8 @@ struct sample {
 	const struct metric *metric;
 };
 
-enum { METRIC_COLUMN = 2 };
+/* What a metric is taken of: a whole run, its profiles at a time, or those at a time and a position. */
+enum metric_extent { METRIC_RUN, METRIC_PROFILE, METRIC_COLUMN };
 
 struct metric {
 	const char *name;   /* as an experiment calls it */
@@ -41,7 +42,7 @@ struct metric {
 	const char *unit;   /* "" if none */
 	int decimals;       /* -1: three significant digits */
 	enum metric_partner partner;
-	int profile; /* taken at a profile time: false, true, or METRIC_COLUMN: at a position, too */
+	enum metric_extent extent;
 	const char *observes; /* dataset that is compared with observations, NULL: none */
 	/* Of an order the error that falls. EX_DATAERR where the file lacks what is needed. */
 	int (*value)(const struct sample *sample, double *out, struct error *err);
