@@ -183,6 +183,9 @@ int config_parse(struct config *config, const char *text, size_t length, const c
 /* Does this method (enum method_kind) solve the symmetric operator alone? */
 bool config_symmetric_only(int method);
 
+/* Does it solve systems with periodic ends? */
+bool config_periodic_too(int method);
+
 /* Are bed and grains given as heights over a horizontal datum (else above the reference plane)? And in the
  * coordinates of the run (else they are changed into them)? */
 bool config_bed_is_absolute(const struct config *config);

@@ -201,10 +201,20 @@ static int check_ends(
 	}
 	if (!left || config->pressure == PRESSURE_HYDROSTATIC)
 		return 0;
+	if (config->pressure_solver.operator_ == OPERATOR_POINTWISE) {
+		(void)error_set(err, EX_DATAERR,
+			"pressure_solver.operator: pointwise has rows at walls and outflows (P1 37), none at "
+			"periodic ends; they take symmetric");
+		return field_blame(reader, "pressure_solver.operator", "domain.left", -1, err);
+	}
+	if (config_periodic_too(config->pressure_solver.method))
+		return 0;
 	(void)error_set(err, EX_DATAERR,
-		"domain: periodic ends need pressure: hydrostatic; the solvers of the non-hydrostatic "
-		"pressure know walls and outflows");
-	return field_blame(reader, "domain.left", "pressure", -1, err);
+		"pressure_solver.method: %s knows walls and outflows; periodic ends take auto or "
+		"conjugate-gradients",
+		field_find(&config_table, "pressure_solver.method")
+			->choices[config->pressure_solver.method]);
+	return field_blame(reader, "pressure_solver.method", "domain.left", -1, err);
 }
 
 /* Grains that do not sink have no weight to press them together. */

@@ -130,7 +130,7 @@ static const struct field fields[] = {
 	REAL(domain.x_min, DRY, "m", "-0.2 m", NULL, "left end"),
 	REAL(domain.x_max, DRY, "m", "3 m", NULL, "right end, beyond x_min"),
 	INTEGER(domain.cells, DRY | LEADING, "640", "[2, 1000000]", "cells of equal width between the ends"),
-	CHOICE("domain.left", domain.left, DRY, "wall", boundaries, "what the left end is; periodic: both or neither, and hydrostatic"),
+	CHOICE("domain.left", domain.left, DRY, "wall", boundaries, "what the left end is; periodic: both or neither"),
 	CHOICE("domain.right", domain.right, DRY, "outflow", boundaries, "what the right end is"),
 
 	GROUP(topography, DRY, "the bed above the reference plane"),
@@ -244,7 +244,7 @@ static const struct field fields[] = {
 
 	GROUP(pressure_solver, DRY, "the linear system of the non-hydrostatic pressure"),
 	CHOICE("pressure_solver.method", pressure_solver.method, DRY, "auto", methods,
-		"auto: conjugate-gradients or block-direct, by what the last steps cost; "
+		"auto: conjugate-gradients or block-direct, by what the last steps cost (the former with periodic ends); "
 		"block-gauss-seidel: as P1; lapack-band: bits depend on the machine"),
 	CHOICE("pressure_solver.operator", pressure_solver.operator_, DRY, "symmetric", operators,
 		"discrete operator: symmetric, or pointwise as P1 Appendix A (for its tables)"),
@@ -294,6 +294,11 @@ static const struct field fields[] = {
 bool config_symmetric_only(int method)
 {
 	return method == METHOD_CONJUGATE_GRADIENTS || method == METHOD_BLOCK_DIRECT;
+}
+
+bool config_periodic_too(int method)
+{
+	return method == METHOD_AUTO || method == METHOD_CONJUGATE_GRADIENTS;
 }
 
 bool config_bed_is_absolute(const struct config *config)

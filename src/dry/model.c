@@ -103,11 +103,13 @@ static int projection_init(struct model_state *s, const struct config *config,
 {
 	const struct pressure_options options = {.relaxation = config->pressure_solver.relaxation,
 		.threads = s->threads,
-		.symmetric = s->operator_->symmetric};
+		.symmetric = s->operator_->symmetric,
+		.periodic = s->grid.periodic};
 
 	TRY(pressure_system_init(
 		&problem->system, problem->layers, s->grid.faces, !s->solver->matrix_free, err));
 	problem->system.symmetric = s->operator_->symmetric;
+	problem->system.periodic = s->grid.periodic;
 	return s->solver->create(problem->layers, s->grid.faces, &options, &problem->memory, err);
 }
 

@@ -142,6 +142,11 @@ static void fill_right_side(const struct pressure_input *in, struct pressure_sys
 		layer_terms(in, &system->cells, a, -1, left, right);
 		add_terms(in, left, right, system->rhs + pressure_system_row(system, a + 1));
 	}
+	for (int a = 0; a < in->layers && system->periodic; a++) {
+		double *rhs = system->rhs + pressure_system_row(system, a);
+
+		pressure_system_join(&rhs[0], &rhs[system->faces - 1]);
+	}
 }
 
 static void fill_bands(const struct pressure_input *in, struct pressure_system *system)

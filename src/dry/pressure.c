@@ -13,8 +13,8 @@ static void mark_dry(struct model_state *s)
 	for (int f = 0; f < grid->faces; f++)
 		s->dry[f] = s->h[f] < DRY_NO_PRESSURE || s->h[f + 1] < DRY_NO_PRESSURE;
 	if (s->operator_ == &operator_symmetric) { /* the other has the rows of P1 (37) there */
-		s->dry[0] |= !grid->left_wall;
-		s->dry[grid->cells] |= !grid->right_wall;
+		s->dry[0] |= !grid->left_wall && !grid->periodic;
+		s->dry[grid->cells] |= !grid->right_wall && !grid->periodic;
 	}
 }
 
@@ -37,6 +37,10 @@ static void assemble(struct model_state *s, struct projection *problem, double d
 	s->operator_->assemble(&input, &problem->system);
 	for (int f = 0; f < grid->faces; f++)
 		problem->system.weight[f] = 0.5 * (s->h[f] + s->h[f + 1]) * grid->dx / problem->layers;
+	if (grid->periodic) { /* one face, twice */
+		problem->system.weight[0] *= 0.5;
+		problem->system.weight[grid->cells] *= 0.5;
+	}
 }
 
 /* Layer averages for the coarse system (P1 4.1). */

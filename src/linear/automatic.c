@@ -1,7 +1,8 @@
 /* The choice among the methods, step by step, by what the last steps cost: conjugate gradients as long
  * as they take few iterations, the direct method where they would take too many (on beds rough all over, and
  * with few layers). Cost is counted in iterations and sizes, never by a clock, so that the choice is the
- * same on every machine, and what one step leaves for the next is part of the exact state. */
+ * same on every machine, and what one step leaves for the next is part of the exact state. With periodic
+ * ends there are conjugate gradients alone. */
 #include <stdlib.h>
 
 #include "linear/costs.h"
@@ -59,7 +60,8 @@ static int create(
 	m->method = METHOD_CONJUGATE_GRADIENTS;
 	m->kept[HOLD] = SHORTEST_HOLD;
 	if (conjugate_gradients.create(layers, faces, options, &m->gradients, err) != 0 ||
-		(layers <= DIRECT_LAYERS && 8.0 * layers * (double)columns.stride * faces <= DIRECT_BYTES &&
+		(!options->periodic && layers <= DIRECT_LAYERS &&
+			8.0 * layers * (double)columns.stride * faces <= DIRECT_BYTES &&
 			block_direct.create(layers, faces, options, &m->direct, err) != 0)) {
 		destroy(m);
 		return -1;
@@ -119,6 +121,7 @@ const struct pressure_solver automatic = {
 	.method = METHOD_AUTO,
 	.matrix_free = true,
 	.symmetric_only = true,
+	.periodic = true,
 	.create = create,
 	.solve = solve,
 	.kept = kept,

@@ -1,7 +1,10 @@
 /* Conjugate gradients on the symmetric operator, preconditioned by the operator without its xi terms,
  * which fast diagonalisation solves exactly; where these terms are large, strips of columns are eliminated.
  * An iteration is three passes over the columns: new residual and its modes; tridiagonal systems of
- * the modes; new direction and its product with the matrix. */
+ * the modes; new direction and its product with the matrix.
+ *
+ * On a periodic system (S A S, pressure_system.h) the iteration is the same with S after the product, and the
+ * preconditioner closes the seam. Vectors are the same on both sides of it, so that p A p needs no S. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -22,6 +25,7 @@ struct memory {
 	double *sums;    /* [groups or blocks, whichever is more] */
 	float *modes;    /* columns of modes */
 	void *block;
+	bool periodic;      /* the systems */
 	double scale;       /* |b| */
 	double alpha, beta; /* of the pass at hand */
 };
@@ -50,7 +54,7 @@ static int allocate(struct memory *m, struct error *err)
 	int layers = m->columns.layers, faces = m->columns.faces, groups = m->columns.groups, blocks;
 	size_t all = columns_count(&m->columns);
 
-	TRY(fast_diagonal_init(&m->fast, layers, faces, err));
+	TRY(fast_diagonal_init(&m->fast, layers, faces, m->periodic, err));
 	TRY(strips_init(&m->strips, layers, faces, err));
 	blocks = fast_diagonal_blocks(&m->fast);
 	return arrays_allocate(
@@ -69,6 +73,7 @@ static int create(
 		return error_memory(err, sizeof *m);
 	m->columns = columns_make(layers, faces);
 	m->threads = options->threads;
+	m->periodic = options->periodic;
 	if (allocate(m, err) != 0) {
 		destroy(m);
 		return -1;
@@ -105,6 +110,26 @@ static double total(const double *sums, int count)
 static size_t group_at(const struct memory *m, int group)
 {
 	return (size_t)group * LANES * m->columns.stride;
+}
+
+/* S of some columns. */
+static void join(const struct memory *m, double *columns)
+{
+	size_t stride = m->columns.stride;
+	double *last = columns + (size_t)(m->columns.faces - 1) * stride;
+
+	for (size_t a = 0; a < stride; a++)
+		pressure_system_join(&columns[a], &last[a]);
+}
+
+/* r r, from the sums by groups; the seam has half of its residual on either side. */
+KERNEL static double residual_square(const struct memory *m)
+{
+	double sum = total(m->sums, m->columns.groups);
+
+	if (m->periodic)
+		sum += 2 * kernel_dot(m->residual, m->residual, (int)m->columns.stride);
+	return sum;
 }
 
 /* Right side into the residual; sums: its square. */
@@ -162,6 +187,28 @@ static void factor_modes(struct part *part)
 static void solve_modes(struct part *part)
 {
 	fast_diagonal_solve(&part->m->fast, part->m->modes, part->m->sums, part->first, part->last);
+}
+
+static void prepare_seam(struct memory *m, const struct pressure_system *system)
+{
+	fast_diagonal_seam_side(&m->fast, m->modes);
+	pass(m, system, fast_diagonal_blocks(&m->fast), solve_modes);
+	fast_diagonal_seam_keep(&m->fast, m->modes);
+}
+
+static void close_modes(struct part *part)
+{
+	fast_diagonal_seam_close(&part->m->fast, part->m->modes, part->first, part->last);
+}
+
+/* The modes are those of a ring then. Returns how much less their product with the residual is. */
+static double close_seam(struct memory *m, const struct pressure_system *system)
+{
+	double less = fast_diagonal_seam_jump(&m->fast, m->modes);
+
+	pass(m, system, m->columns.groups, close_modes);
+	fast_diagonal_seam_join(&m->fast, m->modes);
+	return less;
 }
 
 static void multiply(struct part *part, int first, int last)
@@ -267,6 +314,8 @@ static void eliminate(struct memory *m, const struct pressure_system *system)
 		}
 	}
 	strips_correct(&m->strips, system, m->direction, m->product, m->sums);
+	if (m->periodic)
+		join(m, m->product);
 	m->alpha = 1;
 }
 
@@ -278,13 +327,17 @@ static void begin(struct memory *m, const struct pressure_system *system)
 
 	fast_diagonal_prepare(&m->fast, system);
 	pass(m, system, fast_diagonal_blocks(&m->fast), factor_modes);
+	if (m->periodic)
+		prepare_seam(m, system);
 	pass(m, system, groups, take_right_side);
-	m->scale = sqrt(total(m->sums, groups));
+	m->scale = sqrt(residual_square(m));
 	for (size_t i = 0; i < all; i++)
 		m->x[i] = 0;
 	if (!starts_at_zero(system)) {
 		pass(m, system, groups, take_start);
 		pass(m, system, groups, multiply_start);
+		if (m->periodic)
+			join(m, m->product);
 		for (size_t i = 0; i < all; i++)
 			m->residual[i] -= m->product[i];
 	}
@@ -324,7 +377,7 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 		double square, energy;
 
 		pass(m, system, groups, take_step);
-		square = total(m->sums, groups);
+		square = residual_square(m);
 		stop = stop || (rule->criterion == CRITERION_RESIDUAL && square <= limit);
 		if (stop || square == 0)
 			break;
@@ -336,12 +389,16 @@ static int solve(struct pressure_system *system, const struct stopping_rule *rul
 		}
 		pass(m, system, blocks, solve_modes);
 		energy = total(m->sums, blocks);
+		if (m->periodic)
+			energy -= close_seam(m, system);
 		m->beta = last > 0 ? energy / last : 0;
 		last = energy;
 		pass(m, system, groups, turn_and_multiply);
 		pass(m, system, groups, multiply_edges);
 		strips_correct(&m->strips, system, m->direction, m->product, m->sums);
 		m->alpha = energy / total(m->sums, groups);
+		if (m->periodic)
+			join(m, m->product);
 		stop = rule->criterion == CRITERION_INCREMENT &&
 			   increment(m, system, rule->norm) < rule->tolerance;
 	}
@@ -354,6 +411,7 @@ const struct pressure_solver conjugate_gradients = {
 	.method = METHOD_CONJUGATE_GRADIENTS,
 	.matrix_free = true,
 	.symmetric_only = true,
+	.periodic = true,
 	.create = create,
 	.solve = solve,
 	.free = destroy,

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "linear/arrays.h"
 
@@ -40,10 +41,11 @@ static void fill_modes(struct fast_diagonal *fast)
 	}
 }
 
-int fast_diagonal_init(struct fast_diagonal *fast, int layers, int faces, struct error *err)
+int fast_diagonal_init(
+	struct fast_diagonal *fast, int layers, int faces, bool periodic, struct error *err)
 {
 	size_t half = fast_diagonal_half(layers);
-	size_t square = half * half, row = (size_t)faces + 1, all;
+	size_t square = half * half, row = (size_t)faces + 1, all, seam = periodic ? 2 * half : 0;
 
 	*fast = (struct fast_diagonal){.columns = columns_make(layers, faces), .half = half};
 	all = fast_diagonal_count(fast);
@@ -53,7 +55,8 @@ int fast_diagonal_init(struct fast_diagonal *fast, int layers, int faces, struct
 			ARRAY(fast->of_stretch, 2 * half), ARRAY(fast->of_mean, 2 * half),
 			ARRAY(fast->kept, 2 * half), ARRAY(fast->multiplier, all), ARRAY(fast->inverse, all),
 			ARRAY(fast->bands[0], row), ARRAY(fast->bands[1], row), ARRAY(fast->bands[2], row),
-			ARRAY(fast->bands[3], row), {0}},
+			ARRAY(fast->bands[3], row), ARRAY(fast->seam, periodic ? all : 0),
+			ARRAY(fast->seam_scale, seam), ARRAY(fast->seam_jump, seam), {0}},
 		&fast->memory, err));
 	fill_modes(fast);
 	return 0;
@@ -181,6 +184,66 @@ KERNEL void fast_diagonal_solve(
 		break;
 	default:;
 	}
+}
+
+/* Where the modes of the last face begin. */
+static size_t last_face(const struct fast_diagonal *fast)
+{
+	return (size_t)(fast->columns.faces - 1) * 2 * fast->half;
+}
+
+void fast_diagonal_seam_side(const struct fast_diagonal *fast, float *modes)
+{
+	size_t last = last_face(fast);
+
+	memset(modes, 0, fast_diagonal_count(fast) * sizeof *modes);
+	for (size_t m = 0; m < 2 * fast->half; m++) {
+		modes[m] = (float)fast->kept[m];
+		modes[last + m] = -(float)fast->kept[m];
+	}
+}
+
+void fast_diagonal_seam_keep(struct fast_diagonal *fast, const float *modes)
+{
+	size_t last = last_face(fast);
+
+	memcpy(fast->seam, modes, fast_diagonal_count(fast) * sizeof *modes);
+	for (size_t m = 0; m < 2 * fast->half; m++)
+		fast->seam_scale[m] = fast->kept[m] > 0 ? 1 / (modes[m] - modes[last + m]) : 0;
+}
+
+double fast_diagonal_seam_jump(struct fast_diagonal *fast, const float *modes)
+{
+	size_t last = last_face(fast);
+	double sum = 0;
+
+	for (size_t m = 0; m < 2 * fast->half; m++) {
+		float jump = modes[m] - modes[last + m];
+
+		fast->seam_jump[m] = jump * fast->seam_scale[m];
+		sum += (double)jump * fast->seam_jump[m];
+	}
+	return sum;
+}
+
+KERNEL void fast_diagonal_seam_close(
+	const struct fast_diagonal *fast, float *modes, int first, int last)
+{
+	size_t stride = 2 * fast->half, end = (size_t)last * LANES * stride;
+
+	for (size_t at = (size_t)first * LANES * stride; at < end; at += stride)
+		for (size_t m = 0; m < stride; m += MODES)
+			modes_store(
+				modes + at + m, modes_load(modes + at + m) - modes_load(fast->seam_jump + m) *
+																 modes_load(fast->seam + at + m));
+}
+
+void fast_diagonal_seam_join(const struct fast_diagonal *fast, float *modes)
+{
+	size_t last = last_face(fast);
+
+	for (size_t m = 0; m < 2 * fast->half; m++)
+		modes[m] = modes[last + m] = 0.5F * (modes[m] + modes[last + m]);
 }
 
 /* Sums over the even and the odd layers, eight columns by sixteen modes in registers at a time; a mode

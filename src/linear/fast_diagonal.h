@@ -28,6 +28,11 @@ struct fast_diagonal {
 	float *multiplier;  /* columns of modes: L of the L D L^T of each tridiagonal system */
 	float *inverse;     /* columns of modes: 1/D */
 	double *bands[4]; /* [faces + 1]: diagonals of K and M, and their coupling to the face before */
+	/* Of periodic ends, else without elements. With c = 1 at the first face and -1 at the last, the
+	 * solution z of a right side between walls becomes that on the ring by z - y (c z)/(c y). */
+	float *seam;       /* columns of modes: y, the solution for c */
+	float *seam_scale; /* [2 half], 1/(c y); 0 in the padding */
+	float *seam_jump;  /* [2 half], (c z)/(c y) of the solution at hand */
 	void *memory;
 };
 
@@ -37,7 +42,8 @@ static inline size_t fast_diagonal_half(int layers)
 	return ((size_t)(layers + 1) / 2 + MODES - 1) / MODES * MODES;
 }
 
-int fast_diagonal_init(struct fast_diagonal *fast, int layers, int faces, struct error *err);
+int fast_diagonal_init(
+	struct fast_diagonal *fast, int layers, int faces, bool periodic, struct error *err);
 void fast_diagonal_clean(struct fast_diagonal *fast);
 
 /* How many numbers the columns of modes take, and vectors one of them. */
@@ -59,5 +65,15 @@ void fast_diagonal_to_layers(
  * right side and solution, which the preconditioned residual norm is made of. */
 void fast_diagonal_solve(
 	const struct fast_diagonal *fast, float *modes, double *sums, int first, int last);
+
+/* Periodic ends: the right side c into `modes`; then its solution, which is kept. */
+void fast_diagonal_seam_side(const struct fast_diagonal *fast, float *modes);
+void fast_diagonal_seam_keep(struct fast_diagonal *fast, const float *modes);
+
+/* The jump of a solution at the seam. Returns how much less the sums are without. */
+double fast_diagonal_seam_jump(struct fast_diagonal *fast, const float *modes);
+/* Then, for groups [first, last), the solution without it; at last both sides the same in every bit. */
+void fast_diagonal_seam_close(const struct fast_diagonal *fast, float *modes, int first, int last);
+void fast_diagonal_seam_join(const struct fast_diagonal *fast, float *modes);
 
 #endif

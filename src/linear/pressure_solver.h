@@ -20,6 +20,7 @@ struct pressure_options {
 	double relaxation; /* over-relaxation factor, 1; 0: chosen by the method */
 	int threads;
 	bool symmetric; /* the operator */
+	bool periodic;  /* the ends */
 };
 
 struct pressure_solver {
@@ -27,6 +28,7 @@ struct pressure_solver {
 	int method;          /* enum method_kind */
 	bool matrix_free;    /* reads the cells of the symmetric operator, not the bands */
 	bool symmetric_only; /* cannot solve another operator */
+	bool periodic;       /* solves systems with periodic ends, too */
 	/* Private memory for systems of this size. EX_SOFTWARE out of memory. */
 	int (*create)(int layers, int faces, const struct pressure_options *options, void **out,
 		struct error *err);

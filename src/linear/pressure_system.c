@@ -125,6 +125,8 @@ static void each_residual_row(const struct pressure_system *system,
 		} else {
 			bands_residual(system, a, out);
 		}
+		if (system->periodic)
+			pressure_system_join(&out[0], &out[system->faces - 1]);
 		visit(system, a, out, context);
 	}
 }
@@ -145,6 +147,10 @@ KERNEL static void add_squares(
 			sum->rows + pressure_system_row(system, a), row, (size_t)system->faces * sizeof *row);
 	sum->residual += kernel_dot(row, row, system->faces);
 	sum->scale += kernel_dot(rhs, rhs, system->faces);
+	if (system->periodic) { /* (r/2 + r/2)^2 is twice the sum of the squares */
+		sum->residual += 2 * row[0] * row[0];
+		sum->scale += 2 * rhs[0] * rhs[0];
+	}
 }
 
 double pressure_system_residual(const struct pressure_system *system)

@@ -4,7 +4,11 @@
  *
  * The matrix has two forms. The symmetric operator is the sum over the cells of T^T T / h, and five
  * numbers per cell say all of it (`cells`): methods that need no more are called matrix-free. The nine
- * bands hold any operator, and are filled for the methods that ask for them. */
+ * bands hold any operator, and are filled for the methods that ask for them.
+ *
+ * Of a periodic system the first and the last face are one, the seam. Both have the unknown, and each has
+ * half of its equation. The matrix is S A S, with S the mean of the two and A what the cells say; norms
+ * count the seam once. */
 #ifndef TALUS_PRESSURE_SYSTEM_H
 #define TALUS_PRESSURE_SYSTEM_H
 
@@ -34,6 +38,7 @@ struct pressure_system {
 	int layers, faces;
 
 	bool symmetric; /* `cells` hold the matrix */
+	bool periodic;  /* of a symmetric one: the ends are a seam */
 	struct pressure_cells cells;
 
 	/* The bands, each [layers][faces]; NULL in a matrix-free system. Row (a, f) couples to faces f - 1,
@@ -69,6 +74,12 @@ static inline size_t pressure_system_row(const struct pressure_system *system, i
 static inline double *pressure_system_x(const struct pressure_system *system, int a)
 {
 	return system->x + (size_t)(a + 1) * system->x_stride + 1;
+}
+
+/* Two values at the seam become their mean. */
+static inline void pressure_system_join(double *first, double *last)
+{
+	*first = *last = 0.5 * (*first + *last);
 }
 
 /* True relative residual |rhs - A x| / |rhs| in the Euclidean norm, of 0 = A 0 it is 0. */

@@ -82,6 +82,8 @@ static void measure(struct strips *s, const struct pressure_system *system)
 		for (int g = first; g <= last; g++)
 			s->level[g] = most(s->level[g], level);
 	}
+	if (system->periodic) /* a column of the seam has neighbours at the other end, too */
+		s->level[0] = s->level[s->columns.groups - 1] = 0;
 }
 
 /* The level that is left to the iteration, of those that cost least. */

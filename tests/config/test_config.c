@@ -149,9 +149,12 @@ static void rules_across_fields_blame_the_later_value(void **state)
 			"a.yaml:4:16: domain: left is periodic and right is not; it takes both ends"},
 		{"pressure: hydrostatic\ndomain: {right: periodic, left: wall}\n",
 			"a.yaml:5:33: domain: right is periodic and left is not; it takes both ends"},
-		{"domain: {left: periodic, right: periodic}\n",
-			"a.yaml:4:16: domain: periodic ends need pressure: hydrostatic; the solvers of the "
-			"non-hydrostatic pressure know walls and outflows"},
+		{"domain: {left: periodic, right: periodic}\npressure_solver: {method: block-direct}\n",
+			"a.yaml:5:27: pressure_solver.method: block-direct knows walls and outflows; periodic "
+			"ends take auto or conjugate-gradients"},
+		{"pressure_solver: {operator: pointwise}\ndomain: {left: periodic, right: periodic}\n",
+			"a.yaml:5:16: pressure_solver.operator: pointwise has rows at walls and "
+			"outflows (P1 37), none at periodic ends; they take symmetric"},
 		{"layer_fractions: [0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.15, 0.05]\n",
 			"a.yaml:4:18: layer_fractions: they need pressure: hydrostatic; the non-hydrostatic "
 			"pressure is solved for on equal layers"},

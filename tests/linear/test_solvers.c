@@ -101,27 +101,39 @@ static const struct problem {
 	void (*shape)(int cells, double *h, double *b);
 	int operator_; /* enum operator_kind */
 	bool wild;     /* an iteration need not converge, but has to say so */
+	bool periodic;
 } problems[] = {
-	{"one unknown", 1, 1, true, false, flat, OPERATOR_SYMMETRIC, false},
-	{"one cell between walls", 3, 1, true, true, flat, OPERATOR_SYMMETRIC, false},
-	{"one layer", 1, 33, true, true, rough, OPERATOR_SYMMETRIC, false},
-	{"two layers", 2, 8, true, false, rough, OPERATOR_SYMMETRIC, false},
-	{"flat, open ends", 5, 16, false, false, flat, OPERATOR_SYMMETRIC, false},
-	{"flat, walls", 5, 17, true, true, flat, OPERATOR_SYMMETRIC, false},
-	{"rough bed", 8, 15, true, false, rough, OPERATOR_SYMMETRIC, false},
-	{"rough bed, many layers", 17, 20, true, true, rough, OPERATOR_SYMMETRIC, false},
-	{"face of a column", 9, 24, true, false, column_face, OPERATOR_SYMMETRIC, false},
+	{"one unknown", 1, 1, true, false, flat, OPERATOR_SYMMETRIC, false, false},
+	{"one cell between walls", 3, 1, true, true, flat, OPERATOR_SYMMETRIC, false, false},
+	{"one layer", 1, 33, true, true, rough, OPERATOR_SYMMETRIC, false, false},
+	{"two layers", 2, 8, true, false, rough, OPERATOR_SYMMETRIC, false, false},
+	{"flat, open ends", 5, 16, false, false, flat, OPERATOR_SYMMETRIC, false, false},
+	{"flat, walls", 5, 17, true, true, flat, OPERATOR_SYMMETRIC, false, false},
+	{"rough bed", 8, 15, true, false, rough, OPERATOR_SYMMETRIC, false, false},
+	{"rough bed, many layers", 17, 20, true, true, rough, OPERATOR_SYMMETRIC, false, false},
+	{"face of a column", 9, 24, true, false, column_face, OPERATOR_SYMMETRIC, false, false},
 	{"face of a column, layers over a vector", 16, 23, true, true, column_face, OPERATOR_SYMMETRIC,
+		false, false},
+	{"dry faces in the middle", 7, 22, true, true, dry_middle, OPERATOR_SYMMETRIC, false, false},
+	{"dry ends", 4, 25, true, true, dry_ends, OPERATOR_SYMMETRIC, false, false},
+	{"nearly dry cells", 3, 18, true, true, nearly_dry, OPERATOR_SYMMETRIC, false, false},
+	{"all dry", 3, 9, true, true, all_dry, OPERATOR_SYMMETRIC, false, false},
+	{"ring, flat", 5, 16, false, false, flat, OPERATOR_SYMMETRIC, false, true},
+	{"ring of two cells", 3, 2, false, false, rough, OPERATOR_SYMMETRIC, false, true},
+	{"ring, one layer", 1, 33, false, false, rough, OPERATOR_SYMMETRIC, false, true},
+	{"ring, rough bed", 8, 15, false, false, rough, OPERATOR_SYMMETRIC, false, true},
+	{"ring, many layers", 17, 24, false, false, wavy, OPERATOR_SYMMETRIC, false, true},
+	{"ring, face of a column and one at the seam", 9, 40, false, false, column_face,
+		OPERATOR_SYMMETRIC, false, true},
+	{"ring, dry seam", 4, 25, false, false, dry_ends, OPERATOR_SYMMETRIC, false, true},
+	{"ring, dry faces in the middle", 7, 22, false, false, dry_middle, OPERATOR_SYMMETRIC, false,
+		true},
+	{"pointwise, flat", 5, 16, true, false, flat, OPERATOR_POINTWISE, false, false},
+	{"pointwise, slopes", 8, 24, true, true, wavy, OPERATOR_POINTWISE, false, false},
+	{"pointwise, rough bed", 8, 24, true, true, rough, OPERATOR_POINTWISE, true, false},
+	{"pointwise, face of a column", 10, 23, true, false, column_face, OPERATOR_POINTWISE, false,
 		false},
-	{"dry faces in the middle", 7, 22, true, true, dry_middle, OPERATOR_SYMMETRIC, false},
-	{"dry ends", 4, 25, true, true, dry_ends, OPERATOR_SYMMETRIC, false},
-	{"nearly dry cells", 3, 18, true, true, nearly_dry, OPERATOR_SYMMETRIC, false},
-	{"all dry", 3, 9, true, true, all_dry, OPERATOR_SYMMETRIC, false},
-	{"pointwise, flat", 5, 16, true, false, flat, OPERATOR_POINTWISE, false},
-	{"pointwise, slopes", 8, 24, true, true, wavy, OPERATOR_POINTWISE, false},
-	{"pointwise, rough bed", 8, 24, true, true, rough, OPERATOR_POINTWISE, true},
-	{"pointwise, face of a column", 10, 23, true, false, column_face, OPERATOR_POINTWISE, false},
-	{"pointwise, dry ends", 3, 12, true, true, dry_ends, OPERATOR_POINTWISE, false},
+	{"pointwise, dry ends", 3, 12, true, true, dry_ends, OPERATOR_POINTWISE, false, false},
 };
 
 enum { PROBLEMS = sizeof problems / sizeof *problems, CELLS_MAX = 200, LAYERS_MAX = 20 };
@@ -150,6 +162,7 @@ static void assemble(struct setup *setup, const struct problem *problem, bool ba
 	assert_int_equal(
 		pressure_system_init(&setup->system, problem->layers, grid->faces, bands, &err), 0);
 	setup->system.symmetric = problem->operator_ == OPERATOR_SYMMETRIC;
+	setup->system.periodic = problem->periodic;
 	setup->system.cells.dry = setup->dry;
 	setup->velocity = calloc((size_t)problem->layers * grid->stride, sizeof(double));
 	assert_non_null(setup->velocity);
@@ -160,6 +173,10 @@ static void assemble(struct setup *setup, const struct problem *problem, bool ba
 	for (int f = 0; f < grid->faces; f++)
 		setup->system.weight[f] =
 			0.5 * (setup->h[f] + setup->h[f + 1]) * grid->dx / problem->layers;
+	if (grid->periodic) {
+		setup->system.weight[0] *= 0.5;
+		setup->system.weight[grid->cells] *= 0.5;
+	}
 }
 
 static void setup_init(struct setup *setup, const struct problem *problem, bool bands)
@@ -171,13 +188,14 @@ static void setup_init(struct setup *setup, const struct problem *problem, bool 
 								.stride = (size_t)problem->cells + 2,
 								.dx = 0.005,
 								.left_wall = problem->left_wall,
-								.right_wall = problem->right_wall}};
+								.right_wall = problem->right_wall,
+								.periodic = problem->periodic}};
 	problem->shape(grid->cells, setup->h + 1, setup->b + 1);
 	grid_fill_even(grid, setup->h);
 	grid_fill_even(grid, setup->b);
 	for (int f = 0; f < grid->faces; f++)
 		setup->dry[f] = setup->h[f] < DRY_NO_PRESSURE || setup->h[f + 1] < DRY_NO_PRESSURE;
-	if (problem->operator_ == OPERATOR_SYMMETRIC) {
+	if (problem->operator_ == OPERATOR_SYMMETRIC && !problem->periodic) {
 		setup->dry[0] |= !grid->left_wall;
 		setup->dry[grid->cells] |= !grid->right_wall;
 	}
@@ -190,13 +208,19 @@ static void setup_clean(struct setup *setup)
 	free(setup->velocity);
 }
 
-static int count_of(const struct pressure_system *system)
+/* Unknowns per layer: on a ring the last face is the first. */
+static int width_of(const struct pressure_system *system)
 {
-	return system->layers * system->faces;
+	return system->periodic ? system->faces - 1 : system->faces;
 }
 
-/* Entry (i, j) of the matrix of the bands, unknowns by layers. */
-static double entry(const struct pressure_system *system, int i, int j)
+static int count_of(const struct pressure_system *system)
+{
+	return system->layers * width_of(system);
+}
+
+/* Entry (i, j) of the matrix of the bands, faces by layers. */
+static double entry_of_bands(const struct pressure_system *system, int i, int j)
 {
 	const double *const bands[3][3] = {
 		{system->below_lower, system->below_diagonal, system->below_upper},
@@ -205,6 +229,22 @@ static double entry(const struct pressure_system *system, int i, int j)
 	int up = j / system->faces - i / system->faces, right = j % system->faces - i % system->faces;
 
 	return abs(up) > 1 || abs(right) > 1 ? 0 : bands[up + 1][right + 1][i];
+}
+
+/* Entry (i, j) of the matrix of the unknowns: that of the bands, and on a ring with the last row and column
+ * of every layer added to its first. */
+static double entry(const struct pressure_system *system, int i, int j)
+{
+	int width = width_of(system), last = system->faces - 1;
+	int rows = system->periodic && i % width == 0 ? 2 : 1;
+	int columns = system->periodic && j % width == 0 ? 2 : 1;
+	double sum = 0;
+
+	for (int r = 0; r < rows; r++)
+		for (int c = 0; c < columns; c++)
+			sum += entry_of_bands(system, i / width * system->faces + (r ? last : i % width),
+				j / width * system->faces + (c ? last : j % width));
+	return sum;
 }
 
 static void multiply(const struct pressure_system *system, const double *x, long double *out)
@@ -220,14 +260,45 @@ static void multiply(const struct pressure_system *system, const double *x, long
 
 static void take(const struct pressure_system *system, double *x)
 {
+	int width = width_of(system);
+
 	for (int i = 0; i < count_of(system); i++)
-		x[i] = pressure_system_x(system, i / system->faces)[i % system->faces];
+		x[i] = pressure_system_x(system, i / width)[i % width];
 }
 
 static void put(struct pressure_system *system, const double *x)
 {
+	int width = width_of(system);
+
 	for (int i = 0; i < count_of(system); i++)
-		pressure_system_x(system, i / system->faces)[i % system->faces] = x[i];
+		pressure_system_x(system, i / width)[i % width] = x[i];
+	for (int a = 0; a < system->layers && system->periodic; a++)
+		pressure_system_x(system, a)[width] = pressure_system_x(system, a)[0];
+}
+
+/* The right side of every unknown; at a seam both of its faces have one half. */
+static void take_right_side(const struct pressure_system *system, double *out)
+{
+	int width = width_of(system);
+
+	for (int i = 0; i < count_of(system); i++) {
+		const double *rhs = system->rhs + pressure_system_row(system, i / width);
+
+		out[i] = rhs[i % width] + (system->periodic && i % width == 0 ? rhs[width] : 0);
+	}
+}
+
+static void put_right_side(struct pressure_system *system, const long double *values)
+{
+	int width = width_of(system);
+
+	for (int i = 0; i < count_of(system); i++) {
+		double *rhs = system->rhs + pressure_system_row(system, i / width);
+
+		rhs[i % width] = (double)values[i];
+		if (system->periodic && i % width == 0)
+			rhs[0] = rhs[width] = 0.5 * (double)values[i];
+	}
 }
 
 static double norm(int count, const double *v)
@@ -248,10 +319,9 @@ static void know(const struct pressure_system *banded, struct pressure_system *s
 
 	assert_non_null(product);
 	for (int i = 0; i < count; i++)
-		x[i] = banded->cells.dry[i % banded->faces] ? 0 : noise(&seed);
+		x[i] = banded->cells.dry[i % width_of(banded)] ? 0 : noise(&seed);
 	multiply(banded, x, product);
-	for (int i = 0; i < count; i++)
-		system->rhs[i] = (double)product[i];
+	put_right_side(system, product);
 	free(product);
 }
 
@@ -309,13 +379,15 @@ struct work {
 
 static bool fits(int method, const struct problem *problem)
 {
-	return problem->operator_ == OPERATOR_SYMMETRIC || !config_symmetric_only(method);
+	return (problem->operator_ == OPERATOR_SYMMETRIC || !config_symmetric_only(method)) &&
+		   (!problem->periodic || config_periodic_too(method));
 }
 
 static void work_init(struct work *work, int method, const struct problem *problem)
 {
 	bool symmetric = problem->operator_ == OPERATOR_SYMMETRIC;
-	struct pressure_options options = {.threads = 1, .symmetric = symmetric};
+	struct pressure_options options = {
+		.threads = 1, .symmetric = symmetric, .periodic = problem->periodic};
 	struct error err = {0};
 	size_t count;
 
@@ -330,7 +402,7 @@ static void work_init(struct work *work, int method, const struct problem *probl
 		work->solver->create(problem->layers, work->own.grid.faces, &options, &work->memory, &err),
 		0);
 	know(&work->banded.system, &work->own.system, work->exact);
-	memcpy(work->banded.system.rhs, work->own.system.rhs, count * sizeof(double));
+	know(&work->banded.system, &work->banded.system, work->exact);
 }
 
 static void work_clean(struct work *work)
@@ -347,13 +419,16 @@ static double residual_of(const struct work *work)
 {
 	int count = count_of(&work->own.system);
 	long double *product = calloc((size_t)count, sizeof *product), sum = 0;
-	double scale = norm(count, work->own.system.rhs);
+	double *rhs = calloc((size_t)count, sizeof *rhs), scale;
 
-	assert_non_null(product);
+	assert_true(product && rhs);
+	take_right_side(&work->own.system, rhs);
+	scale = norm(count, rhs);
 	multiply(&work->banded.system, work->found, product);
 	for (int i = 0; i < count; i++)
-		sum += (work->own.system.rhs[i] - product[i]) * (work->own.system.rhs[i] - product[i]);
+		sum += (rhs[i] - product[i]) * (rhs[i] - product[i]);
 	free(product);
+	free(rhs);
 	return scale > 0 ? (double)sqrtl(sum) / scale : (double)sqrtl(sum);
 }
 
@@ -366,8 +441,11 @@ static double error_of(const struct work *work)
 	return worst;
 }
 
-static void the_border_is_zero(const struct pressure_system *system)
+static void the_border_is_zero_and_the_seam_one(const struct pressure_system *system)
 {
+	for (int a = 0; a < system->layers && system->periodic; a++)
+		assert_true(
+			pressure_system_x(system, a)[0] == pressure_system_x(system, a)[system->faces - 1]);
 	for (int a = -1; a <= system->layers; a++)
 		for (int f = -1; f <= system->faces; f++)
 			if (a == -1 || a == system->layers || f == -1 || f == system->faces)
@@ -398,6 +476,7 @@ static void check_residual(struct work *work)
 	struct stopping_rule rule = {CRITERION_RESIDUAL, NORM_L2, 0, wanted, 100000};
 	struct pressure_system *system = &work->own.system;
 	double told;
+	double rhs[LAYERS_MAX * (CELLS_MAX + 1)];
 	int done = pressure_solver_solve(work->solver, system, &rule, work->memory, &told);
 
 	if (work->problem->wild && done < 0) {
@@ -406,13 +485,14 @@ static void check_residual(struct work *work)
 	}
 	assert_true(done >= 0);
 	take(system, work->found);
-	the_border_is_zero(system);
+	the_border_is_zero_and_the_seam_one(system);
 	/* double against long double: the sum of nine products of numbers up to the largest of A and x */
 	assert_true(fabs(told - residual_of(work)) <= 1e-3 * wanted);
 	assert_true(told <= wanted);
 	/* e = A^-1 r, and no component of r is larger than its length */
+	take_right_side(system, rhs);
 	assert_true(error_of(work) <= 1.01 * wanted * norm_of_inverse(&work->banded.system) *
-										  norm(count_of(system), system->rhs) +
+										  norm(count_of(system), rhs) +
 									  1e-12);
 }
 
@@ -461,7 +541,7 @@ static void check_start(struct work *work)
 	double told;
 
 	put(system, work->exact);
-	assert_true(pressure_solver_solve(work->solver, system, &rule, work->memory, &told) <= 1);
+	assert_in_range(pressure_solver_solve(work->solver, system, &rule, work->memory, &told), 0, 1);
 	take(system, work->found);
 	assert_true(told <= 1e-9);
 	assert_true(residual_of(work) <= 1e-9);
@@ -570,7 +650,7 @@ static void check_zero(struct work *work)
 	double told;
 
 	put(system, work->exact);
-	memset(system->rhs, 0, (size_t)count_of(system) * sizeof *system->rhs);
+	memset(system->rhs, 0, (size_t)system->layers * (size_t)system->faces * sizeof *system->rhs);
 	assert_int_equal(pressure_solver_solve(work->solver, system, &rule, work->memory, &told), 0);
 	take(system, work->found);
 	assert_true(told == 0);
@@ -619,7 +699,7 @@ static void the_cells_and_the_bands_are_one_matrix(void **state)
 		struct setup setup;
 		struct pressure_system *system = &setup.system;
 
-		if (problems[p].operator_ != OPERATOR_SYMMETRIC)
+		if (problems[p].operator_ != OPERATOR_SYMMETRIC || problems[p].periodic)
 			continue;
 		setup_init(&setup, &problems[p], true);
 		int count = count_of(system);
@@ -678,6 +758,7 @@ static void the_config_knows_what_each_method_is_for(void **state)
 		assert_int_equal(pressure_solver_find(method, true)->method, method);
 		assert_int_equal(
 			config_symmetric_only(method), pressure_solver_find(method, false)->symmetric_only);
+		assert_int_equal(config_periodic_too(method), pressure_solver_find(method, true)->periodic);
 	}
 }
 
@@ -690,6 +771,8 @@ static void factored_blocks_make_the_same_iterates(void **state)
 		double largest = 1;
 		struct stopping_rule rule = {CRITERION_INCREMENT, NORM_L2, 0, 0, 7};
 
+		if (!fits(METHOD_BLOCK_GAUSS_SEIDEL, &problems[p]))
+			continue;
 		work_init(&plain, METHOD_BLOCK_GAUSS_SEIDEL, &problems[p]);
 		work_init(&factored, METHOD_BLOCK_GAUSS_SEIDEL_FACTORED, &problems[p]);
 		(void)plain.solver->solve(&plain.own.system, &rule, plain.memory);
@@ -714,7 +797,8 @@ static void one_layer_is_solved_by_the_first_sweep(void **state)
 
 	(void)state;
 	for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
-		const struct problem line = {"", 1, 33, true, true, rough, OPERATOR_SYMMETRIC, false};
+		const struct problem line = {
+			"", 1, 33, true, true, rough, OPERATOR_SYMMETRIC, false, false};
 		struct work work;
 
 		work_init(&work, methods[i], &line);
@@ -725,7 +809,7 @@ static void one_layer_is_solved_by_the_first_sweep(void **state)
 
 static void the_norms_ask_for_different_numbers_of_sweeps(void **state)
 {
-	const struct problem thin = {"", 8, 40, true, true, wavy, OPERATOR_SYMMETRIC, false};
+	const struct problem thin = {"", 8, 40, true, true, wavy, OPERATOR_SYMMETRIC, false, false};
 	int sweeps[NORM_LINF + 1];
 
 	(void)state;
@@ -771,7 +855,7 @@ static double largest_of(const double *v, size_t count)
 static void strips_take_the_product_out_of_the_steep_columns_alone(void **state)
 {
 	const struct problem problem = {
-		"", 10, 190, true, false, three_faces, OPERATOR_SYMMETRIC, false};
+		"", 10, 190, true, false, three_faces, OPERATOR_SYMMETRIC, false, false};
 	struct column_layout columns = columns_make(problem.layers, problem.cells + 1);
 	size_t group = LANES * columns.stride, all = columns_count(&columns);
 	double *x, *old, product[25000], again[25000], sums[32], sums_again[32], largest;
@@ -824,7 +908,7 @@ static void a_steep_face_takes_conjugate_gradients_few_iterations(void **state)
 	(void)state;
 	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
 		const struct problem face = {"", cases[i].layers, cases[i].cells, true, false,
-			cases[i].shape, OPERATOR_SYMMETRIC, false};
+			cases[i].shape, OPERATOR_SYMMETRIC, false, false};
 		struct setup setup;
 		struct pressure_options options = {.threads = 1, .symmetric = true};
 		struct error err = {0};
@@ -846,6 +930,26 @@ static void a_steep_face_takes_conjugate_gradients_few_iterations(void **state)
 	}
 }
 
+/* With the two sides of the seam put together as they come from between walls it takes 27 instead of 13. */
+static void a_ring_takes_conjugate_gradients_as_few_iterations_as_walls(void **state)
+{
+	struct stopping_rule rule = {CRITERION_RESIDUAL, NORM_L2, 0, 1e-8, 1000};
+	int done[2];
+
+	(void)state;
+	for (int ring = 0; ring < 2; ring++) {
+		const struct problem problem = {
+			"", 17, 60, !ring, !ring, wavy, OPERATOR_SYMMETRIC, false, ring};
+		struct work work;
+
+		work_init(&work, METHOD_CONJUGATE_GRADIENTS, &problem);
+		done[ring] = work.solver->solve(&work.own.system, &rule, work.memory);
+		work_clean(&work);
+	}
+	print_message("# walls: %d, ring: %d\n", done[0], done[1]);
+	assert_in_range(done[1], 1, done[0] + 2);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -864,6 +968,7 @@ int main(void)
 		cmocka_unit_test(the_norms_ask_for_different_numbers_of_sweeps),
 		cmocka_unit_test(strips_take_the_product_out_of_the_steep_columns_alone),
 		cmocka_unit_test(a_steep_face_takes_conjugate_gradients_few_iterations),
+		cmocka_unit_test(a_ring_takes_conjugate_gradients_as_few_iterations_as_walls),
 	};
 
 	return cmocka_run_group_tests(tests, NULL, NULL);

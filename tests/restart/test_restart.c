@@ -359,11 +359,33 @@ static int deadly_step(struct model_state *s, double dt, struct error *err)
 	return dry_model.step(s, dt, err);
 }
 
+/* Of a small dry run, stopped twice between checkpoints. */
+static void kills_change_no_bit(const char *name, const char *setting)
+{
+	static const uint64_t kills[] = {14, 9}; /* begins at 0, at 10, and at 15 to the end */
+	char settings[256], straight[64];
+	struct config config;
+
+	(void)snprintf(settings, sizeof settings,
+		"domain.cells=70;layers=3;time.end=0.25;output.profiles_at=[];%s", setting);
+	(void)snprintf(straight, sizeof straight, "straight-%s", name);
+	config = logistic_config(settings);
+	logistic.raise_at[0] = 0;
+	must_execute(&config, straight);
+	config.checkpoint.every_steps = 5;
+	steps_taken = 0;
+	for (size_t i = 0; i < sizeof kills / sizeof *kills; i++) {
+		logistic.raise_at[0] = kills[i];
+		assert_int_equal(execute_in_child(&config, name, false), -SIGKILL);
+	}
+	logistic.raise_at[0] = 0;
+	must_execute(&config, name);
+	assert_same_bits(straight, name);
+}
+
 /* Of the dry model, whose solvers may leave something for the next step. */
 static void kills_change_no_bit_with_any_pressure_solver(void **state)
 {
-	static const char common[] = "domain.cells=70;layers=3;time.end=0.25;output.profiles_at=[]";
-	static const uint64_t kills[] = {14, 9}; /* begins at 0, at 10, and at 15 to the end */
 	const char *const *names = field_find(&config_table, "pressure_solver.method")->choices;
 	static struct model deadly;
 
@@ -373,25 +395,13 @@ static void kills_change_no_bit_with_any_pressure_solver(void **state)
 	model_in_use = &deadly;
 	logistic.number = SIGKILL;
 	for (int method = 0; names[method]; method++) {
-		char settings[256], straight[64];
-		struct config config;
+		char setting[64];
 
-		(void)snprintf(
-			settings, sizeof settings, "%s;pressure_solver.method=%s", common, names[method]);
-		(void)snprintf(straight, sizeof straight, "straight-%s", names[method]);
-		config = logistic_config(settings);
-		logistic.raise_at[0] = 0;
-		must_execute(&config, straight);
-		config.checkpoint.every_steps = 5;
-		steps_taken = 0;
-		for (size_t i = 0; i < sizeof kills / sizeof *kills; i++) {
-			logistic.raise_at[0] = kills[i];
-			assert_int_equal(execute_in_child(&config, names[method], false), -SIGKILL);
-		}
-		logistic.raise_at[0] = 0;
-		must_execute(&config, names[method]);
-		assert_same_bits(straight, names[method]);
+		(void)snprintf(setting, sizeof setting, "pressure_solver.method=%s", names[method]);
+		kills_change_no_bit(names[method], setting);
 	}
+	kills_change_no_bit(
+		"ring", "domain.left=periodic;domain.right=periodic;pressure_solver.start=previous");
 }
 
 int main(void)

@@ -49,6 +49,7 @@ layers=40 n_ini_guess=0 pressure_solver.method=block-direct domain.cells=320
 layers=33 n_ini_guess=0 pressure_solver.method=red-black-line-relaxation domain.cells=320
 layers=41 n_ini_guess=0
 layers=40 n_ini_guess=0 pressure_solver.method=conjugate-gradients domain.cells=1280
+layers=20 n_ini_guess=10 domain.left=periodic domain.right=periodic domain.cells=641
 layers=20 n_ini_guess=0 pressure=hydrostatic time.end=1s
 layers=7 n_ini_guess=0 pressure=hydrostatic domain.cells=1001 domain.left=outflow time.end=1s
 layers=10 n_ini_guess=0 pressure=hydrostatic erodible_bed_thickness=0 time.end=1s
