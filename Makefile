@@ -128,7 +128,7 @@ quickstart $(filter-out quickstart,$(EXPERIMENTS)):
 	{ ! grep -q '^plots:' experiments/$@.yaml || $(BIN)/talus plot experiments/$@.yaml; } && \
 	echo "run files: results/$@/*/run.h5" && exit $$failed
 
-## tables: every experiment that has tables: run what is not finished, print the tables
+## tables: every experiment that has tables: run what is not finished, print the tables (and draw its plots)
 ## figures: every experiment that has plots: run what is not finished, draw the figures
 tables figures:
 	$(Q)for name in $(patsubst experiments/%.yaml,%,$(shell \

@@ -130,7 +130,7 @@ static const struct field fields[] = {
 	REAL(domain.x_min, DRY, "m", "-0.2 m", NULL, "left end"),
 	REAL(domain.x_max, DRY, "m", "3 m", NULL, "right end, beyond x_min"),
 	INTEGER(domain.cells, DRY | LEADING, "640", "[2, 1000000]", "cells of equal width between the ends"),
-	CHOICE("domain.left", domain.left, DRY, "wall", boundaries, "what the left end is; periodic: both or neither"),
+	CHOICE("domain.left", domain.left, DRY, "wall", boundaries, "what the left end is; outflow: open, the flow goes on beyond it as it is there, also inwards; periodic: both or neither"),
 	CHOICE("domain.right", domain.right, DRY, "outflow", boundaries, "what the right end is"),
 
 	GROUP(topography, DRY, "the bed above the reference plane"),
@@ -143,7 +143,7 @@ static const struct field fields[] = {
 		"of the reference plane at x_max, over the datum of cartesian heights"),
 	REAL(topography.bump, DRY, "m", "0.3 m", "[0, inf)", "height of the bump at x = 1 m (kappa of P1 5.4)"),
 	REAL(topography.roughness, DRY, "m", "0.15 m", "[0, inf)", "largest height that random adds to a cell"),
-	INTEGER(topography.seed, DRY, "1", "[0, inf)", "of the random heights"),
+	INTEGER(topography.seed, DRY, "1", "[1, inf)", "of the random heights"),
 	POINTS(topography.points, DRY, "x and bed of shape file, linear between them; a file is beside the config"),
 
 	GROUP(initial, 0, "the grains at rest at time 0"),
@@ -162,7 +162,7 @@ static const struct field fields[] = {
 		"volume share of the grains: loose or dense (phi_0)"),
 
 	GROUP(gate, DRY, "what the gate does as it opens"),
-	REAL(gate.speed, DRY, "m/s", "0 m/s", NULL,
+	REAL(gate.speed, DRY, "m/s", "0 m/s", "[0, 100]",
 		"upward velocity of the grains behind it at time 0 (V_b of P2 30); 0: they are at rest"),
 	REAL(gate.width, DRY, "m", "25 mm", "(0, inf)", "how far behind it they have that velocity"),
 
@@ -207,10 +207,10 @@ static const struct field fields[] = {
 	GROUP(regularisation, 0, "the papers' delta: keeps friction finite where nothing moves"),
 	CHOICE("regularisation.viscosity", regularisation.viscosity, DRY, "delta", viscosities,
 		"what keeps the viscosity finite: strain_rate (delta), or largest_viscosity, as P3 (8) (bounded)"),
-	REAL(regularisation.largest_viscosity, DRY, "1", "250", "(0, inf)",
+	REAL(regularisation.largest_viscosity, DRY, "1", "250", "(0, 1e12]",
 		"with viscosity bounded: the largest, over rho sqrt(g cos(slope) h^3)"),
-	REAL(regularisation.strain_rate, 0, "1/s", "1e-5 1/s", "(0, inf)", "in the viscosity"),
-	REAL(regularisation.velocity, 0, "m/s", "1e-5 m/s", "(0, inf)", "in the bottom friction"),
+	REAL(regularisation.strain_rate, 0, "1/s", "1e-5 1/s", "[1e-15, inf)", "in the viscosity"),
+	REAL(regularisation.velocity, 0, "m/s", "1e-5 m/s", "[1e-15, inf)", "in the bottom friction"),
 
 	GROUP(time, 0, "how far and in what steps"),
 	REAL(time.end, LEADING, "s", "3 s", "(0, inf)", "simulated time at which the run is complete"),
