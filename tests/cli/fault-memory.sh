@@ -17,7 +17,8 @@ limited() # KILOBYTES COMMAND...
 least=4096 most=1048576
 while ((most - least > 64)); do
 	middle=$(((least + most) / 2))
-	if limited $middle talus --version; then most=$middle; else least=$middle; fi
+	# below it, even the loader may fall
+	if limited $middle talus --version 2>/dev/null; then most=$middle; else least=$middle; fi
 done
 short() # COMMAND...
 {
