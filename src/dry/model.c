@@ -102,15 +102,15 @@ static size_t layout(struct model_state *s, bool cartesian, double *memory)
 static int projection_init(struct model_state *s, const struct config *config,
 	struct projection *problem, struct error *err)
 {
-	int merged = s->layers / problem->layers;
+	size_t merged = (size_t)(s->layers / problem->layers);
 	const struct pressure_options options = {.relaxation = config->pressure_solver.relaxation,
 		.threads = s->threads,
 		.symmetric = s->operator_->symmetric,
 		.periodic = s->grid.periodic,
 		.shares = config->layer_fractions.count ? s->work : NULL};
 
-	for (int a = 0; a < problem->layers; a++) /* `work` has no other use yet */
-		s->work[a] = (s->level[(a + 1) * merged] - s->level[a * merged]) / merged;
+	for (size_t a = 0; a < (size_t)problem->layers; a++) /* `work` has no other use yet */
+		s->work[a] = (s->level[(a + 1) * merged] - s->level[a * merged]) / (double)merged;
 
 	TRY(pressure_system_init(
 		&problem->system, problem->layers, s->grid.faces, !s->solver->matrix_free, err));
