@@ -220,14 +220,47 @@ static int check_ends(const struct config *config, const struct grid *grid, stru
 		left, right);
 }
 
+/* There are some, and of a thickness that this model is for. */
+static int check_grains(const struct grid *grid, const double *h, struct error *err)
+{
+	enum { THICKEST = 1000000 }; /* m */
+	double most = 0;
+
+	for (int i = 1; i <= grid->cells; i++) {
+		if (!(h[i] <= THICKEST))
+			return error_set(err, EX_DATAERR,
+				"initial: at x = %g m the grains are %g m thick; 1000 km is the most",
+				grid_centre(grid, i), h[i]);
+		most = fmax(most, h[i]);
+	}
+	if (most > 0)
+		return 0;
+	return error_set(
+		err, EX_DATAERR, "initial: there are no grains between domain.x_min and domain.x_max");
+}
+
 int initial_fill(
 	const struct config *config, const struct grid *grid, double *b, double *h, struct error *err)
 {
 	TRY(check_ends(config, grid, err));
 	TRY((config_bed_is_given_here(config) ? fill_here : fill_turned)(config, grid, b, h, err));
+	TRY(check_grains(grid, h, err));
 	grid_fill_even(grid, b);
 	grid_fill_even(grid, h);
 	return 0;
+}
+
+int initial_check(const struct config *config, struct error *err)
+{
+	struct grid grid = grid_make(config);
+	double *rows = calloc(2 * grid.stride, sizeof *rows);
+	int result;
+
+	if (!rows)
+		return error_memory(err, 2 * grid.stride * sizeof *rows);
+	result = initial_fill(config, &grid, rows, rows + grid.stride, err);
+	free(rows);
+	return result;
 }
 
 double initial_velocity(const struct config *config, double x)

@@ -2,6 +2,7 @@
 #include <getopt.h>
 #include <stdbool.h>
 
+#include "case/initial.h"
 #include "cli/command.h"
 #include "cli/commands.h"
 #include "talus/config.h"
@@ -67,6 +68,10 @@ static int check_file(const char *path, const struct check_options *options, boo
 
 	if (config_read(&config, path, options->settings.list, options->settings.count, &err) != 0)
 		return command_config_fail(path, &err);
+	if (config.model == MODEL_DRY && initial_check(&config, &err) != 0) {
+		(void)error_context(&err, "%s", path);
+		return command_fail(&err);
+	}
 	if (options->quiet)
 		return 0;
 	if (several)

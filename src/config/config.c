@@ -91,6 +91,24 @@ static bool has_front(const struct config *config)
 		   config->gate.speed != 0;
 }
 
+/* Cells have to be told apart, by their places and by what differs between them. */
+static int check_cells(
+	const struct config *config, const struct field_reader *reader, struct error *err)
+{
+	double x_min = config->domain.x_min, x_max = config->domain.x_max;
+	double width = (x_max - x_min) / config->domain.cells;
+	double least = fmax(1e-9, 1e-12 * fmax(fabs(x_min), fabs(x_max)));
+	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
+
+	if (width >= least)
+		return 0;
+	(void)error_set(err, EX_DATAERR,
+		"domain: %d cells between x_min and x_max are %s m wide each; here they must be at least "
+		"%s m",
+		config->domain.cells, text_real(width, first), text_real(least, second));
+	return field_blame(reader, "domain.cells", "domain.x_max", -1, err);
+}
+
 static int check_domain(
 	const struct config *config, const struct field_reader *reader, struct error *err)
 {
@@ -103,6 +121,7 @@ static int check_domain(
 			text_real(x_min, first), text_real(x_max, second));
 		return field_blame(reader, "domain.x_min", "domain.x_max", -1, err);
 	}
+	TRY(check_cells(config, reader, err));
 	if (!has_front(config) || (front >= x_min && front <= x_max))
 		return 0;
 	(void)error_set(err, EX_DATAERR, "initial.front: %s m is outside the domain, %s m is its %s",

@@ -56,6 +56,23 @@ static int check_bed(
 	return field_blame(reader, "topography.points", "domain.x_max", -1, err);
 }
 
+static int check_thickness(
+	const struct config *config, const struct field_reader *reader, struct error *err)
+{
+	const struct real_list *points = &config->initial.points;
+	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
+
+	for (int i = 0; i + 1 < points->count; i += 2) {
+		if (points->values[i + 1] >= 0)
+			continue;
+		(void)error_set(err, EX_DATAERR,
+			"initial.points: at x = %s m the thickness is %s m; it must be at least 0",
+			text_real(points->values[i], first), text_real(points->values[i + 1], second));
+		return field_blame(reader, "initial.points", NULL, -1, err);
+	}
+	return 0;
+}
+
 static int check_gate(
 	const struct config *config, const struct field_reader *reader, struct error *err)
 {
@@ -139,6 +156,7 @@ int config_check_geometry(
 	TRY(check_bed(config, reader, err));
 	TRY(check_points(reader, &config->initial.points, config->initial.shape == SHAPE_FILE,
 		"initial.points", "initial.shape", err));
+	TRY(check_thickness(config, reader, err));
 	TRY(check_gate(config, reader, err));
 	TRY(check_friction(config, reader, err));
 	return check_length(config, reader, err);

@@ -20,7 +20,7 @@
 	}
 #define POINTS(key, flags, meaning)                                                                \
 	{                                                                                              \
-#key, FIELD_POINTS, flags, AT(key), "m", "[]", NULL, NULL, meaning, NULL                   \
+#key, FIELD_POINTS, flags, AT(key), "m", "[]", "[-1000 km, 1000 km]", NULL, meaning, NULL  \
 	}
 #define INTEGER(key, flags, value, range, meaning)                                                 \
 	{                                                                                              \
@@ -106,7 +106,7 @@ static const struct field fields[] = {
 		"whether the vertical acceleration acts on the pressure"),
 	REAL(slope, FIELD_REQUIRED | LEADING, "rad", "22 deg", "[0 deg, 90 deg)",
 		"angle of the reference plane, positive downhill in +x"),
-	REAL(erodible_bed_thickness, FIELD_REQUIRED | DRY | LEADING, "m", "1.82 mm", "[0, inf)",
+	REAL(erodible_bed_thickness, FIELD_REQUIRED | DRY | LEADING, "m", "1.82 mm", "[0, 1000 km]",
 		"grains at rest under and before the initial shape (h_i); 0: a rigid bed"),
 	CHOICE("coordinates", coordinates, DRY, "local", coordinates,
 		"local: along and normal to the reference plane; cartesian: horizontal and vertical, with the "
@@ -126,8 +126,8 @@ static const struct field fields[] = {
 		"drag between grains and fluid in the momentum equations"),
 
 	GROUP(domain, DRY, "the grid along the plane"),
-	REAL(domain.x_min, DRY, "m", "-0.2 m", NULL, "left end"),
-	REAL(domain.x_max, DRY, "m", "3 m", NULL, "right end, beyond x_min"),
+	REAL(domain.x_min, DRY, "m", "-0.2 m", "[-1000 km, 1000 km]", "left end"),
+	REAL(domain.x_max, DRY, "m", "3 m", "[-1000 km, 1000 km]", "right end, beyond x_min"),
 	INTEGER(domain.cells, DRY | LEADING, "640", "[2, 1000000]", "cells of equal width between the ends"),
 	CHOICE("domain.left", domain.left, DRY, "wall", boundaries, "what the left end is; outflow: open, the flow goes on beyond it as it is there, also inwards; periodic: both or neither"),
 	CHOICE("domain.right", domain.right, DRY, "outflow", boundaries, "what the right end is"),
@@ -138,10 +138,10 @@ static const struct field fields[] = {
 	CHOICE("topography.coordinates", topography.coordinates, DRY, "same", givens,
 		"in which bed and initial shape are given: above the plane, in those of the run (same) or local "
 		"ones, or as heights over a horizontal datum (cartesian); they are changed into those of the run"),
-	REAL(topography.plane_height, DRY, "m", "0 m", NULL,
+	REAL(topography.plane_height, DRY, "m", "0 m", "[-1000 km, 1000 km]",
 		"of the reference plane at x_max, over the datum of cartesian heights"),
-	REAL(topography.bump, DRY, "m", "0.3 m", "[0, inf)", "height of the bump at x = 1 m (kappa of P1 5.4)"),
-	REAL(topography.roughness, DRY, "m", "0.15 m", "[0, inf)", "largest height that random adds to a cell"),
+	REAL(topography.bump, DRY, "m", "0.3 m", "[0, 1000 km]", "height of the bump at x = 1 m (kappa of P1 5.4)"),
+	REAL(topography.roughness, DRY, "m", "0.15 m", "[0, 1000 km]", "largest height that random adds to a cell"),
 	INTEGER(topography.seed, DRY, "1", "[1, inf)", "of the random heights"),
 	POINTS(topography.points, DRY, "x and bed of shape file, linear between them; a file is beside the config"),
 
@@ -150,10 +150,10 @@ static const struct field fields[] = {
 		"column: one height from the left end to the front; heap: height exp(-((x - centre)/width)^2); "
 		"triangle: a horizontal surface behind a vertical front (P2 4.1); level: a surface through height at "
 		"centre; cap: that of P1 5.4; uniform: one height everywhere; file: points"),
-	REAL(initial.height, 0, "m", "0.14 m", "(0, inf)", "height of the column, or of the heap's top, above the bed layer, of a level surface or cap, or of the mixture"),
-	REAL(initial.front, DRY, "m", "0 m", NULL, "position of the gate, between x_min and x_max"),
-	REAL(initial.centre, DRY, "m", "0 m", NULL, "of the heap or cap; where a level surface has its height"),
-	REAL(initial.width, DRY, "m", "0.5 m", "(0, inf)", "of the heap: where its height has fallen to 1/e"),
+	REAL(initial.height, 0, "m", "0.14 m", "(0, 1000 km]", "height of the column, or of the heap's top, above the bed layer, of a level surface or cap, or of the mixture"),
+	REAL(initial.front, DRY, "m", "0 m", "[-1000 km, 1000 km]", "position of the gate, between x_min and x_max"),
+	REAL(initial.centre, DRY, "m", "0 m", "[-1000 km, 1000 km]", "of the heap or cap; where a level surface has its height"),
+	REAL(initial.width, DRY, "m", "0.5 m", "(0, 1000 km]", "of the heap: where its height has fallen to 1/e"),
 	REAL(initial.surface_slope, DRY, "rad", "0 deg", "(-90 deg, 90 deg)",
 		"of a level surface against the x axis, positive downhill in +x"),
 	POINTS(initial.points, DRY, "x and thickness of shape file, linear between them and 0 beyond"),
@@ -163,17 +163,17 @@ static const struct field fields[] = {
 	GROUP(gate, DRY, "what the gate does as it opens"),
 	REAL(gate.speed, DRY, "m/s", "0 m/s", "[0, 100]",
 		"upward velocity of the grains behind it at time 0 (V_b of P2 30); 0: they are at rest"),
-	REAL(gate.width, DRY, "m", "25 mm", "(0, inf)", "how far behind it they have that velocity"),
+	REAL(gate.width, DRY, "m", "25 mm", "(0, 1000 km]", "how far behind it they have that velocity"),
 
 	GROUP(grains, 0, "the material"),
-	REAL(grains.diameter, 0, "m", "0.7 mm", "(0, inf)", "grain diameter (d_s)"),
-	REAL(grains.density, 0, "kg/m3", "2500 kg/m3", "(0, inf)", "density of a grain (rho_s)"),
+	REAL(grains.diameter, 0, "m", "0.7 mm", "(0, 1000 km]", "grain diameter (d_s)"),
+	REAL(grains.density, 0, "kg/m3", "2500 kg/m3", "(0, 1e6 kg/m3]", "density of a grain (rho_s)"),
 	REAL(grains.solid_fraction, DRY, "1", "0.62", "(0, 1]", "volume share of the grains (phi_s)"),
 
 	GROUP(fluid, IMMERSED, "what fills the space between the grains"),
-	REAL(fluid.density, IMMERSED | FIELD_REQUIRED, "kg/m3", "1026 kg/m3", "(0, inf)",
+	REAL(fluid.density, IMMERSED | FIELD_REQUIRED, "kg/m3", "1026 kg/m3", "(0, 1e6 kg/m3]",
 		"density, below that of a grain (rho_f)"),
-	REAL(fluid.viscosity, IMMERSED | LEADING | FIELD_REQUIRED, "Pa s", "9.8e-3 Pa s", "(0, inf)",
+	REAL(fluid.viscosity, IMMERSED | LEADING | FIELD_REQUIRED, "Pa s", "9.8e-3 Pa s", "(0, 1e6 Pa s]",
 		"viscosity (eta_f)"),
 
 	GROUP(rheology, 0, "friction of the moving grains"),
@@ -182,15 +182,15 @@ static const struct field fields[] = {
 		"mu = mu_s; linear (immersed only): mu = mu_s + k_1 I"),
 	CHOICE("rheology.strain_rate", rheology.strain_rate, DRY, "first-order", strain_rates,
 		"first-order: |d_z u|; second-order: sqrt((d_z u)^2 + 4 (d_x u)^2), P3 (55), its C-MSM"),
-	REAL(rheology.mu_s, 0, "1", "tan(25.5 deg)", "(0, inf)", "friction coefficient at rest"),
-	REAL(rheology.mu_2, 0, "1", "tan(36 deg)", "(0, inf)",
+	REAL(rheology.mu_s, 0, "1", "tan(25.5 deg)", "(0, 1e6]", "friction coefficient at rest"),
+	REAL(rheology.mu_2, 0, "1", "tan(36 deg)", "(0, 1e6]",
 		"friction coefficient of fast flow, at least mu_s"),
-	REAL(rheology.i_0, 0, "1", "0.279", "(0, inf)", "inertial number half way between the two"),
-	REAL(rheology.k_1, IMMERSED, "1", "90.5", "[0, inf)", "slope of the linear law (K_1)"),
+	REAL(rheology.i_0, 0, "1", "0.279", "(0, 1e6]", "inertial number half way between the two"),
+	REAL(rheology.k_1, IMMERSED, "1", "90.5", "[0, 1e6]", "slope of the linear law (K_1)"),
 
 	GROUP(dilatancy, IMMERSED, "dilatation of the sheared grains, P4 (10)"),
-	REAL(dilatancy.k, IMMERSED, "1", "4.09", "[0, inf)", "dilatation constant (K)"),
-	REAL(dilatancy.k_2, IMMERSED, "1", "25", "[0, inf)",
+	REAL(dilatancy.k, IMMERSED, "1", "4.09", "[0, 1e6]", "dilatation constant (K)"),
+	REAL(dilatancy.k_2, IMMERSED, "1", "25", "[0, 1e6]",
 		"how the equilibrium fraction falls with the inertial number (K_2)"),
 	REAL(dilatancy.critical_fraction, IMMERSED, "1", "0.582", "(0, 1)",
 		"equilibrium fraction at rest (phi_c^stat)"),
@@ -200,20 +200,20 @@ static const struct field fields[] = {
 		"P4's tables"),
 
 	GROUP(walls, 0, "side walls of a channel, P1 (36), P4 (42)"),
-	REAL(walls.mu_w, 0, "1", "0", "[0, inf)", "friction coefficient (mu_w); 0: no walls"),
-	REAL(walls.width, 0, "m", "0.1 m", "(0, inf)", "width of the channel (W)"),
+	REAL(walls.mu_w, 0, "1", "0", "[0, 1e6]", "friction coefficient (mu_w); 0: no walls"),
+	REAL(walls.width, 0, "m", "0.1 m", "(0, 1000 km]", "width of the channel (W)"),
 
 	GROUP(regularisation, 0, "the papers' delta: keeps friction finite where nothing moves"),
 	CHOICE("regularisation.viscosity", regularisation.viscosity, DRY, "delta", viscosities,
 		"what keeps the viscosity finite: strain_rate (delta), or largest_viscosity, as P3 (8) (bounded)"),
 	REAL(regularisation.largest_viscosity, DRY, "1", "250", "(0, 1e12]",
 		"with viscosity bounded: the largest, over rho sqrt(g cos(slope) h^3)"),
-	REAL(regularisation.strain_rate, 0, "1/s", "1e-5 1/s", "[1e-15, inf)", "in the viscosity"),
-	REAL(regularisation.velocity, 0, "m/s", "1e-5 m/s", "[1e-15, inf)", "in the bottom friction"),
+	REAL(regularisation.strain_rate, 0, "1/s", "1e-5 1/s", "[1e-15, 1e6 1/s]", "in the viscosity"),
+	REAL(regularisation.velocity, 0, "m/s", "1e-5 m/s", "[1e-15, 1e6 m/s]", "in the bottom friction"),
 
 	GROUP(time, 0, "how far and in what steps"),
-	REAL(time.end, LEADING, "s", "3 s", "(0, inf)", "simulated time at which the run is complete"),
-	REAL(time.cfl, DRY | LEADING, "1", "0.7", "(0, 1]", "share of the largest stable step that is taken; hydrostatic fronts need 0.1 to 0.3"),
+	REAL(time.end, LEADING, "s", "3 s", "(0, 1e9 s]", "simulated time at which the run is complete"),
+	REAL(time.cfl, DRY | LEADING, "1", "0.7", "[1e-6, 1]", "share of the largest stable step that is taken; hydrostatic fronts need 0.1 to 0.3"),
 	CHOICE("time.wave_speed", time.wave_speed, DRY, "fastest", wave_speeds,
 		"velocity that limits the step: fastest layer, or mean over the layers (P1 eq. 14)"),
 
@@ -266,9 +266,9 @@ static const struct field fields[] = {
 	GROUP(output, 0, "what is recorded; does not touch the steps"),
 	REALS(output.profiles_at, 0, "s", "[]", "[0, inf)",
 		"times of the stored profiles, at most time.end"),
-	REALS(output.gauges, DRY, "m", "[]", NULL,
+	REALS(output.gauges, DRY, "m", "[]", "[-1000 km, 1000 km]",
 		"positions where the thickness is recorded as often as the series"),
-	REALS(output.velocity_at, DRY, "m", "[]", NULL,
+	REALS(output.velocity_at, DRY, "m", "[]", "[-1000 km, 1000 km]",
 		"positions where the velocities of all layers are recorded as often as the series"),
 	REAL(output.series_every, 0, "s", "0 s", "[0, inf)",
 		"simulated time between records of the series; 0: every step"),

@@ -12,6 +12,7 @@ enum { BYTES_MAX = 1 << 20 };
 
 /* Points on their way, as x, value, x, value. */
 struct points {
+	const struct field *field;
 	double *values; /* [2 POINTS_MAX] */
 	int count;      /* of values */
 	int column;     /* of the line of a file that is being read */
@@ -38,7 +39,7 @@ static int check_room(const struct points *points, struct error *err)
 /* "0.5 1.25" or "0.5, 1.25"; the error has no place. */
 static int read_line(struct points *points, char *line, struct error *err)
 {
-	static const char blanks[] = " \t\r,;";
+	static const char blanks[] = " \t,;";
 	char shown[EXCERPT], *rest = NULL, *word = strtok_r(line, blanks, &rest);
 	int words = 0;
 
@@ -46,13 +47,17 @@ static int read_line(struct points *points, char *line, struct error *err)
 		return 0;
 	TRY(check_room(points, err));
 	for (; word && *word != '#'; word = strtok_r(NULL, blanks, &rest), words++) {
+		double *value = &points->values[points->count];
+
 		points->column = (int)(word - line) + 1;
 		if (words == 2)
 			return error_set(err, EX_DATAERR, "a third value: a line holds x and one value");
-		if (!text_to_real(word, &points->values[points->count++]))
+		(void)text_excerpt(word, shown, sizeof shown);
+		if (!text_to_real(word, value))
 			return error_set(err, EX_DATAERR,
-				"'%s' is not a number; a line holds x and one value in m, or begins with #",
-				text_excerpt(word, shown, sizeof shown));
+				"'%s' is not a number; a line holds x and one value in m, or begins with #", shown);
+		TRY(field_check_range(points->field, shown, *value, err));
+		points->count++;
 	}
 	points->column = 1;
 	if (words == 1)
@@ -60,16 +65,19 @@ static int read_line(struct points *points, char *line, struct error *err)
 	return check_order(points, err);
 }
 
+/* Lines end as those of configs do: with LF, CR LF, or CR alone. */
 static int read_text(struct points *points, const char *path, char *text, struct error *err)
 {
 	int number = 1;
 
+	if (!strncmp(text, "\xEF\xBB\xBF", 3))
+		text += 3; /* the mark that some editors put before UTF-8 */
 	for (char *line = text, *next; line; line = next, number++) {
+		char *end = line + strcspn(line, "\r\n");
 		struct error here = {0};
 
-		next = strchr(line, '\n');
-		if (next)
-			*next++ = '\0';
+		next = *end ? end + (end[0] == '\r' && end[1] == '\n' ? 2 : 1) : NULL;
+		*end = '\0';
 		points->column = 1;
 		if (read_line(points, line, &here) != 0)
 			return error_at(err, EX_DATAERR, path, number, points->column, "%s", here.text);
@@ -111,28 +119,33 @@ static int read_file(struct points *points, const char *beside, const char *name
 	return status;
 }
 
-static int read_pair(
-	const struct field *field, const struct node *pair, struct points *points, struct error *err)
+static int read_pair(const struct node *pair, struct points *points, struct error *err)
 {
+	char shown[EXCERPT];
+
 	if (pair->kind != NODE_SEQUENCE || pair->count != 2)
 		return error_set(err, EX_DATAERR, "expected a point [x, value] here");
 	TRY(check_room(points, err));
 	for (size_t i = 0; i < 2; i++) {
-		if (pair->items[i].kind != NODE_SCALAR)
-			return error_set(err, EX_DATAERR, "expected a single value, not %s",
-				node_kind_name(&pair->items[i]));
-		TRY(quantity_read(pair->items[i].text, field->unit, &points->values[points->count++], err));
+		const struct node *item = &pair->items[i];
+		double *value = &points->values[points->count++];
+
+		if (item->kind != NODE_SCALAR)
+			return error_set(
+				err, EX_DATAERR, "expected a single value, not %s", node_kind_name(item));
+		TRY(quantity_read(item->text, points->field->unit, value, err));
+		TRY(field_check_range(
+			points->field, text_excerpt(item->text, shown, sizeof shown), *value, err));
 	}
 	return check_order(points, err);
 }
 
-static int read_list(const struct field *field, const struct field_place *place,
-	struct points *points, struct error *err)
+static int read_list(const struct field_place *place, struct points *points, struct error *err)
 {
 	const struct node *node = place->node;
 
 	for (size_t i = 0; i < node->count; i++)
-		if (read_pair(field, &node->items[i], points, err) != 0)
+		if (read_pair(&node->items[i], points, err) != 0)
 			return field_set_place(place->source, &node->items[i], err);
 	if (node->count == 1)
 		return error_set(err, EX_DATAERR, "one point; a profile has two points at least");
@@ -143,7 +156,7 @@ int points_convert(const struct field *field, const struct field_place *place, c
 	struct real_list *list, struct error *err)
 {
 	const size_t bytes = sizeof(double) * 2 * POINTS_MAX;
-	struct points points = {0};
+	struct points points = {.field = field};
 	int status = -1;
 
 	if (place->node->kind == NODE_SEQUENCE && !place->node->count)
@@ -160,7 +173,7 @@ int points_convert(const struct field *field, const struct field_place *place, c
 	else if (place->node->kind == NODE_SCALAR)
 		status = read_file(&points, beside, place->node->text, err);
 	else
-		status = read_list(field, place, &points, err);
+		status = read_list(place, &points, err);
 	if (!status)
 		status = real_list_keep(list, points.values, points.count, err);
 	free(points.values);

@@ -13,6 +13,14 @@ for text in '# x b\n0 1\n' '' '0 1\n1 one\n' '0 1\n1\n' '0, 1, 2\n' '0 1\n\n0 2\
 done
 printf '# x in m, b in m\r\n-0.1, 0\r\n0.1\t0.02 # the step\r\n\r\n0.3; 0.01' >beds/bed.txt
 talus check beds/small.yaml | grep -A 7 topography
+# as spreadsheets and old editors write it: a byte order mark, lines that end with CR
+printf '\xEF\xBB\xBF-0.1, 0\r# the step\r0.1, 0.02\r0.3, 0.01\r' >beds/bed.txt
+talus check beds/small.yaml | grep points:
+printf '\xEF\xBB\xBF-0.1, 0\r\n0.1, 0.02 m\r\n' >beds/bed.txt
+talus check beds/small.yaml >/dev/null
+printf -- '-0.1, 0\r0.1 one\r' >beds/bed.txt
+talus check beds/small.yaml >/dev/null
+printf '# x in m, b in m\n-0.1 0\n0.1 0.02\n0.3 0.01\n' >beds/bed.txt
 
 refuse() # SETTING...
 {
@@ -30,6 +38,11 @@ refuse topography.shape=random topography.points=[] domain.x_min=-4
 refuse topography.shape=random topography.points=[] topography.coordinates=cartesian
 refuse topography.shape=bump topography.points=[]
 refuse initial.shape=file
+refuse 'topography.points=[[-1, 0], [1, 1000.1 km]]'
+refuse initial.shape=file 'initial.points=[[0, 0.1], [0.1, -0.1]]'
+refuse initial.shape=heap initial.centre=50 erodible_bed_thickness=0
+refuse initial.shape=level 'initial.surface_slope=-89.9999999999 deg'
+refuse domain.left=periodic domain.right=periodic
 refuse gate.speed=1 pressure=hydrostatic
 refuse gate.speed=1 topography.coordinates=cartesian
 refuse scheme.friction=coulomb

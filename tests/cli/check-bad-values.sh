@@ -117,6 +117,21 @@ output: {profiles_at: [-1 s]}
 output: {front_threshold: 0 mm}
 checkpoint: {every: -1 s}
 checkpoint: {every_steps: 0.5}
+erodible_bed_thickness: 1e300
+topography: {plane_height: 1e300}
+topography: {plane_height: -1e300}
+topography: {shape: file, points: [[-1, 0], [4, 1e300]]}
+domain: {x_max: 1e300}
+domain: {x_min: -1e300}
+domain: {x_min: 0, x_max: 1e-300}
+domain: {x_min: 999999.99, x_max: 1000000, cells: 1000000}
+initial: {height: 1e300}
+initial: {shape: heap, centre: 1e300}
+grains: {diameter: 1e300}
+rheology: {mu_2: 1e300}
+time: {end: 1e300}
+time: {cfl: 1e-300}
+output: {gauges: [1e300]}
 layers: 20\nlayers: 10
 time: {cfl: 0.5}\ntime: {end: 1 s}
 time: {cfl: 0.5}\ntime.cfl: 0.6
