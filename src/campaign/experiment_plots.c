@@ -320,7 +320,8 @@ static int read_panels(const struct reader *reader, const struct node *node, voi
 		{"coordinates", read_coordinates,                                                          \
 			"local or cartesian: h over x as a run in these would have it (default: same, as it "  \
 			"is)"},                                                                                \
-		{"above_bed", read_above_bed, "true: h without the erodible bed layer"},                   \
+		{"above_bed", read_above_bed,                                                              \
+			"true: h, h_gauge or h_station without the erodible bed layer"},                       \
 		{"log", read_log, "`x`, `y` or both"},                                                     \
 		{"x_range", read_x_range, "`[from, to]` in the unit of the axis"},                         \
 		{"y_range", read_y_range, "`[from, to]` in the unit of the axis"},                         \

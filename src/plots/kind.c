@@ -160,13 +160,30 @@ static void multiply(double *values, size_t count, double factor)
 		values[i] *= factor;
 }
 
-static void leave_bed_out(const struct kind_request *request, const struct kind_run *run,
-	const char *name, double *values, size_t count)
+bool kind_holds_bed(const char *name)
 {
-	if (!request->wanted->above_bed || !run->config || strcmp(name, "h") != 0)
+	return !strcmp(name, "h") || !strcmp(name, "h_gauge") || !strcmp(name, "h_station");
+}
+
+/* What lengths along x become in the coordinates that the plot asks for; heights become that much less. */
+static double turned_scale(
+	const struct kind_request *request, const struct kind_run *run, const char *along)
+{
+	int wanted = request->wanted->coordinates;
+
+	if (wanted == GIVEN_SAME || !run->config || strcmp(along, "x") != 0 ||
+		(wanted == GIVEN_CARTESIAN) == (run->config->coordinates == COORDINATES_CARTESIAN))
+		return 1;
+	return wanted == GIVEN_CARTESIAN ? cos(run->config->slope) : 1 / cos(run->config->slope);
+}
+
+static void leave_bed_out(const struct kind_request *request, const struct kind_run *run,
+	const char *name, const char *along, double *values, size_t count)
+{
+	if (!request->wanted->above_bed || !run->config || !kind_holds_bed(name))
 		return;
 	for (size_t i = 0; i < count; i++)
-		values[i] -= config_bed_thickness(run->config);
+		values[i] -= config_bed_thickness(run->config) / turned_scale(request, run, along);
 }
 
 static int lacks(const struct kind_request *request, const struct kind_run *run, struct error *err)
@@ -229,7 +246,7 @@ static int add_slice(const struct kind_request *request, const struct kind_run *
 	if (!strcmp(place->along, "time"))
 		for (size_t i = 0; i < slice->count && slice->axis[i] < meaning_settles(name); i++)
 			slice->values[i] = NAN;
-	leave_bed_out(request, run, name, slice->values, slice->count);
+	leave_bed_out(request, run, name, place->along, slice->values, slice->count);
 	TRY(dataset_axis(request, run, kind->upright ? 0 : 1, name, &factor, err));
 	multiply(slice->values, slice->count, factor);
 	if (kind->upright) {
@@ -250,21 +267,18 @@ static int add_slice(const struct kind_request *request, const struct kind_run *
 static int turn(const struct kind_request *request, const struct kind_run *run, const char *name,
 	const struct slice_place *place, struct slice *slice, struct error *err)
 {
-	int wanted = request->wanted->coordinates;
+	double scale = turned_scale(request, run, place->along), *turned = NULL;
 	struct slice_place everywhere = *place;
 	struct slice b = {0};
 	struct config other;
 	struct grid onto;
-	double *turned = NULL, scale;
 
-	if (wanted == GIVEN_SAME || !run->config || strcmp(place->along, "x") != 0 ||
-		(wanted == GIVEN_CARTESIAN) == (run->config->coordinates == COORDINATES_CARTESIAN))
+	if (scale == 1)
 		return 0;
 	if (strcmp(name, "h") != 0)
 		return error_set(
 			err, EX_DATAERR, "'%s' cannot be shown in other coordinates, only h can", name);
 	other = *run->config;
-	scale = wanted == GIVEN_CARTESIAN ? cos(other.slope) : 1 / cos(other.slope);
 	other.domain.x_min *= scale;
 	other.domain.x_max *= scale;
 	onto = grid_make(&other);
@@ -447,7 +461,7 @@ static int add_map(const struct kind_request *request, const struct kind_run *ru
 			error_memory(err, map.rows * map.columns * sizeof *map.values);
 			goto done;
 		}
-		leave_bed_out(request, run, name, slice.values, slice.count);
+		leave_bed_out(request, run, name, kind->along, slice.values, slice.count);
 		memcpy(map.values + row * map.columns, slice.values, map.columns * sizeof *map.values);
 	}
 	map.x = slice.axis;

@@ -61,6 +61,9 @@ struct kind {
  * which needs more than one run, has no `add`. */
 const struct kind *kind_find(const char *name, const char **nearest);
 
+/* Whether a dataset is a thickness, with the erodible bed in it. */
+bool kind_holds_bed(const char *name);
+
 /* Add to the dimensions of the curves those in which the curves of a run differ. */
 bool kind_add_dimensions(const struct kind_request *request);
 

@@ -52,6 +52,13 @@ static int find_kind(struct panel *panel, struct error *err)
 	if (panel->kind->add && wanted->x.text)
 		return error_at(err, EX_DATAERR, panel->experiment->path, wanted->x.line, wanted->x.column,
 			"only plots of kind metric have an 'x' of their own");
+	for (size_t i = 0; wanted->above_bed && i < wanted->y.count; i++)
+		if (!panel->kind->add || !kind_holds_bed(wanted->y.items[i].text))
+			return error_at(err, EX_DATAERR, panel->experiment->path, wanted->y.items[i].line,
+				wanted->y.items[i].column,
+				"above_bed leaves the erodible bed out of h, h_gauge and h_station; it is not in "
+				"'%s'",
+				wanted->y.items[i].text);
 	if (wanted->split.count && wanted->published_count)
 		return error_at(err, EX_DATAERR, panel->experiment->path, wanted->split.items[0].line,
 			wanted->split.items[0].column,

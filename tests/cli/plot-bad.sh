@@ -35,6 +35,14 @@ bad '    kind: metric
 bad '    kind: series
     y: h
     x: layers'
+bad '    kind: profile
+    y: [h, u]
+    lines: layers
+    above_bed: true'
+bad '    kind: metric
+    y: final-thickness
+    x: layers
+    above_bed: true'
 bad '    kind: gauge
     y: h
     layer: 0

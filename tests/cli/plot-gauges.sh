@@ -37,3 +37,23 @@ echo "exit $?"
 svg results/study/figures/gauge.svg
 svg results/study/figures/column.svg
 talus plot -d study.yaml
+echo "exit $?"
+
+# what is drawn where nothing lies on the erodible bed: 0, also in the other coordinates
+cat >bed.yaml <<'END'
+base: collapse.yaml
+set: {output: {profiles_at: [0.05 s], gauges: [0.3 m], velocity_at: [0.3 m]}, time.end: 0.05 s}
+runs: [{layers: 2}]
+plots:
+  - {name: same, kind: profile, y: h, at: 0.05 s, above_bed: true}
+  - {name: turned, kind: profile, y: h, at: 0.05 s, above_bed: true, coordinates: cartesian}
+  - {name: gauge, kind: series, y: h_gauge, above_bed: true}
+  - {name: station, kind: series, y: h_station, above_bed: true}
+END
+talus campaign run bed.yaml >/dev/null
+mkdir path
+# shellcheck disable=SC2016 # for the script
+printf '#!/bin/bash\ntee -a %q | %q "$@"\n' "$PWD/drawn" "$(command -v gnuplot)" >path/gnuplot
+chmod +x path/gnuplot
+PATH=$PWD/path:$PATH talus plot -f svg bed.yaml
+awk '/<< END/ {inside = 1; next} /^END/ {inside = 0; printf "%.1f mm\n", 1000 * (last < 0 ? -last : last)} inside {last = $2}' drawn
