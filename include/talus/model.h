@@ -50,6 +50,8 @@ struct axes {
 
 struct model_state; /* private to the model */
 
+enum { MODEL_DOUBT_SIZE = 512 };
+
 struct model {
 	const char *name;
 	int numerics_version; /* raised whenever the same config would give other numbers */
@@ -57,8 +59,7 @@ struct model {
 	size_t series_count;
 	const struct profile *profiles;
 	size_t profile_count;
-	const char *remedy; /* what may help where the steps become too short; NULL: nobody knows */
-	bool keeps_state;   /* a step that fails leaves the state as it was, which is then saved */
+	bool keeps_state; /* a step that fails leaves the state as it was, which is then saved */
 
 	/* Allocate a state at t = 0 from a checked config. EX_SOFTWARE out of memory. */
 	int (*create)(const struct config *config, struct model_state **out, struct error *err);
@@ -67,6 +68,10 @@ struct model {
 	/* Advance by dt. EX_FAILED where the numbers are no longer a flow: says what and where; the
 	 * state is then useless, unless the model keeps it. Allocates nothing. */
 	int (*step)(struct model_state *state, double dt, struct error *err);
+	/* What may help where the steps become too short, or NULL: nobody knows. */
+	const char *(*remedy)(const struct model_state *state);
+	/* What is doubtful in the steps since the state was made or restored, if anything is. NULL: nothing. */
+	bool (*doubt)(const struct model_state *state, char text[MODEL_DOUBT_SIZE]);
 	/* How far the last step went, s: not beyond its dt. NULL for a model that takes every step as
 	 * asked; one with this chooses its steps itself, and tries shorter ones where need be. */
 	double (*taken)(const struct model_state *state);

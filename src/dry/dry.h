@@ -101,6 +101,16 @@ struct model_state {
 	double *dq;   /* the last fluctuation of q, [layers][faces], m2/s2 */
 	double *mass; /* [2], initial mass and what has left through the ends, kg/m */
 
+	/* What the energy is held against, counted from the lowest point of the bed (check.c). */
+	struct {
+		double base;        /* height of that point above the right end of the plane, m */
+		double most;        /* what a kilogram can have, m2/s2 */
+		double first;       /* at time 0, J/m */
+		double least, rise; /* since grains last came in, and the largest rise from there, J/m; both
+		                       since the state was made or restored */
+	} energy;
+	char remedy[192]; /* what may help a run that fails with these settings */
+
 	double *b; /* bed above the reference plane, [stride], m */
 	double *
 		bed; /* what d_x b of the pressure force is of: b, or with the plane in Cartesian coordinates */
@@ -198,6 +208,19 @@ void dry_add_pressure_force(struct model_state *s, const double *p, double dt);
 /* The velocities at the middle of the layers [layers], and the strain rates and mu(I) at the interfaces
  * [layers + 1], of the steady uniform flow of thickness h. NaN where grains would gain speed for ever. */
 void dry_exact(const struct model_state *s, double h, double *u, double *strain, double *mu);
+
+/* Note what may help where these settings fail. */
+void dry_note_remedy(struct model_state *s, const struct config *config);
+
+/* Note what the energy of the state at time 0 allows; and begin to watch a state that was restored. */
+void dry_check_begin(struct model_state *s, const struct config *config);
+void dry_check_again(struct model_state *s);
+
+/* EX_FAILED where the numbers of the last step are no longer a flow. */
+int dry_check(struct model_state *s, struct error *err);
+
+/* The energy rose where it cannot: what to say of it. */
+bool dry_doubt(const struct model_state *s, char text[MODEL_DOUBT_SIZE]);
 
 /* Series and profiles (observe.c), as struct model describes them. */
 enum { DRY_SERIES_COUNT = 18, DRY_PROFILE_COUNT = 13 };

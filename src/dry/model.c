@@ -183,6 +183,7 @@ static int fill(struct model_state *s, const struct config *config, struct error
 		s->steady_strain, s->steady_mu);
 	if (config->gate.speed != 0)
 		open_gate(s, config);
+	dry_check_begin(s, config);
 	return 0;
 }
 
@@ -197,6 +198,7 @@ static int create(const struct config *config, struct model_state **out, struct 
 	s->par = parameters(config);
 	s->grid = grid_make(config);
 	s->layers = s->full.layers = config->layers;
+	dry_note_remedy(s, config);
 	s->threads = config->threads;
 	s->chunk_cells = chunk_cells(s->layers);
 	s->operator_ = operators[config->pressure_solver.operator_];
@@ -337,24 +339,6 @@ static double time_step(const struct model_state *s)
 	return s->par.cfl * s->grid.dx / fastest;
 }
 
-/* Where the numbers are no longer a flow. */
-static int check(const struct model_state *s, struct error *err)
-{
-	for (int i = 1; i <= s->grid.cells; i++) {
-		if (s->h[i] < 0)
-			return error_set(err, EX_FAILED,
-				"negative thickness %g m at x = %g m; a time.cfl below %g may carry it", s->h[i],
-				grid_centre(&s->grid, i), s->par.cfl);
-		if (!isfinite(s->h[i] + s->squares[i]))
-			return error_set(err, EX_FAILED,
-				"the state is not finite (thickness %g m) at x = %g m; a time.cfl below %g may "
-				"carry "
-				"it",
-				s->h[i], grid_centre(&s->grid, i), s->par.cfl);
-	}
-	return 0;
-}
-
 static int step(struct model_state *s, double dt, struct error *err)
 {
 	double at[4];
@@ -373,7 +357,18 @@ static int step(struct model_state *s, double dt, struct error *err)
 	for (int i = 0; i < 3; i++)
 		s->cpu[i] = at[i + 1] - at[i];
 	dry_velocities(s);
-	return check(s, err);
+	return dry_check(s, err);
+}
+
+static void restored(struct model_state *s)
+{
+	dry_velocities(s);
+	dry_check_again(s);
+}
+
+static const char *remedy(const struct model_state *s)
+{
+	return s->remedy;
 }
 
 static struct axes axes(const struct model_state *s)
@@ -412,7 +407,6 @@ static size_t arrays(struct model_state *s, struct array *list)
 const struct model dry_model = {
 	.name = "dry",
 	.numerics_version = 3,
-	.remedy = "a lower time.cfl may carry it",
 	.series = dry_series,
 	.series_count = DRY_SERIES_COUNT,
 	.profiles = dry_profiles,
@@ -420,11 +414,13 @@ const struct model dry_model = {
 	.create = create,
 	.time_step = time_step,
 	.step = step,
+	.remedy = remedy,
+	.doubt = dry_doubt,
 	.observe = dry_observe,
 	.profile = dry_profile,
 	.axes = axes,
 	.arrays = arrays,
-	.restored = dry_velocities,
+	.restored = restored,
 	.free = destroy,
 	.cost = dry_cost,
 };

@@ -109,9 +109,10 @@ static int solve(
 
 	return error_set(err, EX_FAILED,
 		"the pressure solver (%s, %d layers) did not converge at x = %g m: %s after %d iterations, "
-		"relative residual %.1e",
+		"relative residual %.1e%s%s",
 		s->solver->name, problem->layers, round(1e6 * x) / 1e6 + 0.0, /* no -5e-17, no -0 */
-		isfinite(s->residual) ? "stopped" : "not a number", -done, s->residual);
+		isfinite(s->residual) ? "stopped" : "not a number", -done, s->residual,
+		isfinite(s->residual) ? "" : "; ", isfinite(s->residual) ? "" : s->remedy);
 }
 
 int dry_pressure(struct model_state *s, double dt, struct error *err)

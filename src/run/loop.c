@@ -17,12 +17,12 @@ static int choose(
 	double end = attempt->config->time.end, left = end - attempt->time;
 	double dt = attempt->model->time_step(attempt->state);
 	double shortest = attempt->model->taken ? 0 : SHORTEST * end;
+	const char *remedy = attempt->model->remedy ? attempt->model->remedy(attempt->state) : NULL;
 
 	if (!(dt >= shortest) || attempt->time + dt == attempt->time)
 		return error_set(err, EX_FAILED, "the time step has become %g s: %s (end: %g s)%s%s", dt,
 			dt > 0 ? "too short to get to the end" : "the state is not a flow", end,
-			attempt->model->remedy ? "; " : "",
-			attempt->model->remedy ? attempt->model->remedy : "");
+			remedy ? "; " : "", remedy ? remedy : "");
 	*step = (struct recorder_step){.from = attempt->time, .dt = dt, .to = attempt->time + dt};
 	*shared = left < 2 * dt;
 	if (left <= dt) {

@@ -343,6 +343,16 @@ static int prepare(
 	return checkpoint_write(attempt, RUN_UNFINISHED, err);
 }
 
+static void tell_doubt(const struct attempt *attempt)
+{
+	char doubt[MODEL_DOUBT_SIZE];
+
+	if (!attempt->state || !attempt->model->doubt || !attempt->model->doubt(attempt->state, doubt))
+		return;
+	attempt_say(attempt, RUN_VOICE_WARNING, "%s: %s", attempt->folder, doubt);
+	attempt_log(attempt, "warning: %s", doubt);
+}
+
 /* Tell how the attempt ended, in the run file, status.yaml, run.log and to people. */
 static int conclude(struct attempt *attempt, int result, struct error *err)
 {
@@ -353,6 +363,8 @@ static int conclude(struct attempt *attempt, int result, struct error *err)
 	struct error second = {0};
 
 	attempt_say(attempt, RUN_VOICE_PROGRESS, "%s", "");
+	if (state != RUN_STATE_FAILED)
+		tell_doubt(attempt);
 	if (result != 0)
 		(void)error_format(err, reason, sizeof reason);
 	if (state == RUN_STATE_FAILED && checkpoint_fail(attempt, reason, &second) != 0) {

@@ -83,6 +83,7 @@ static void mass_leaves_through_an_outflow_only(void **state)
 static void the_energy_never_rises(void **state)
 {
 	struct error err = {0};
+	char doubt[MODEL_DOUBT_SIZE];
 
 	(void)state;
 	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -105,6 +106,7 @@ static void the_energy_never_rises(void **state)
 		}
 		if (closed)
 			assert_true(rise <= 1e-3 * first);
+		assert_false(dry_model.doubt(s, doubt));
 		dry_model.free(s);
 	}
 }
@@ -677,6 +679,48 @@ static void numbers_that_are_no_flow_end_the_step_and_say_where(void **state)
 	dry_model.free(s);
 }
 
+/* All grains, downhill. */
+static void push(struct model_state *s, double speed)
+{
+	for (int a = 0; a < s->layers; a++)
+		for (int i = 1; i <= s->grid.cells; i++)
+			s->U[(size_t)a * s->grid.stride + (size_t)i] += speed * s->h[i];
+	dry_velocities(s);
+}
+
+/* As on a bed that is too rough, where layers of nothing reach thousands of metres a second. */
+static void energy_from_nowhere_is_doubted_and_much_of_it_ends_the_step(void **state)
+{
+	static const char *const ends[][4] = {
+		{"domain.right=wall"},
+		{"domain.right=outflow"},
+		{"domain.left=periodic", "domain.right=periodic", "slope=0 deg"},
+		{"domain.left=periodic", "domain.right=periodic"},
+	};
+	static const int counts[] = {1, 1, 3, 2};
+
+	(void)state;
+	for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+		struct config config = read_config(ends[i], counts[i]);
+		struct model_state *s = create(&config);
+		struct error err = {0};
+		char doubt[MODEL_DOUBT_SIZE];
+
+		advance(s, 0.01);
+		assert_false(dry_model.doubt(s, doubt));
+		push(s, 1.5);
+		assert_int_equal(dry_model.step(s, 1e-6, &err), 0);
+		assert_true(dry_model.doubt(s, doubt) == (i < 3)); /* by the slope they may */
+		assert_true(i == 3 || strstr(doubt, "the energy rose by "));
+		push(s, 1e3);
+		assert_int_equal(dry_model.step(s, 1e-6, &err), -1);
+		assert_int_equal(err.code, EX_FAILED);
+		assert_non_null(strstr(err.text, "the energy has risen to "));
+		assert_non_null(strstr(err.text, "scheme.exchange: upwind and a time.cfl below 0.5"));
+		dry_model.free(s);
+	}
+}
+
 static void a_hydrostatic_run_has_no_fluctuation_and_a_diagnosed_w(void **state)
 {
 	static const char *const plain[] = {"pressure=hydrostatic"};
@@ -763,6 +807,7 @@ int main(void)
 		cmocka_unit_test(the_arrays_are_the_whole_state),
 		cmocka_unit_test(a_solver_that_does_not_converge_ends_the_step),
 		cmocka_unit_test(numbers_that_are_no_flow_end_the_step_and_say_where),
+		cmocka_unit_test(energy_from_nowhere_is_doubted_and_much_of_it_ends_the_step),
 		cmocka_unit_test(a_hydrostatic_run_has_no_fluctuation_and_a_diagnosed_w),
 #ifndef __SANITIZE_ADDRESS__
 		cmocka_unit_test(a_step_allocates_nothing),

@@ -1,0 +1,24 @@
+# numbers that are no flow any more: a run on a bed that is too rough for it fails, one whose energy rose a
+# little is complete and says so, and what the message asks for carries it
+# shellcheck source=tests/cli/small.bash
+source "$TALUS_ROOT/tests/cli/small.bash"
+rough=("$TALUS_ROOT/configs/granular-collapse.yaml" --quiet --set topography.shape=random
+	--set domain.cells=160 --set time.end=1 --set 'output.profiles_at=[]')
+safe=(--set scheme.exchange=upwind --set time.wave_speed=fastest)
+numbers() # what is chaos in these
+{
+	sed -E 's/(step|t =|risen to|rose by) [0-9.e+-]+/\1 N/g'
+}
+run() # FOLDER SETTINGS...
+{
+	talus run "${rough[@]}" -o "$@" 2>&1 | numbers
+	echo "exit ${PIPESTATUS[0]}"
+}
+run plain
+run faster "${safe[@]}" --set time.cfl=0.5
+talus info faster | grep -E '^  (status|reason)' | numbers
+run doubtful "${safe[@]}" --set time.cfl=0.5 --set pressure=hydrostatic
+grep warning doubtful/run.log | numbers | clocks
+talus info doubtful | grep -E '^  (status|energy-rise)' | sed -E 's/0\.[0-9]+$/0.N/'
+run carried "${safe[@]}" --set time.cfl=0.1 --set layers=2
+talus verify plain faster doubtful carried | grep -c ': good'
