@@ -5,6 +5,7 @@
 
 #include "base/stop.h"
 #include "run/checkpoint.h"
+#include "run/verify.h"
 
 /* A step shorter than this part of the run would never get there, unless steps grow again. */
 #define SHORTEST 1e-12
@@ -101,6 +102,22 @@ static int fail(struct attempt *attempt, bool saved, struct error *err)
 		err, "step %llu at t = %g s", (unsigned long long)attempt->step + 1, attempt->time);
 }
 
+/* A run is complete if `verify` will find it good. */
+static int finish(struct attempt *attempt, struct error *err)
+{
+	size_t count;
+	const double *mass = recorder_series(attempt->recorder, "mass", &count);
+	const double *left = recorder_series(attempt->recorder, "mass_outflow", &count);
+	struct text breach = {0};
+	bool kept = !mass || !left || verify_mass(mass, left, count, attempt->step, &breach);
+
+	if (!kept)
+		error_set(
+			err, EX_FAILED, "%.*s", (int)strcspn(text_string(&breach), "\n"), text_string(&breach));
+	text_clean(&breach);
+	return kept ? checkpoint_write(attempt, RUN_COMPLETE, err) : -1;
+}
+
 int loop_run(struct attempt *attempt, struct error *err)
 {
 	struct recorder_step step = {0};
@@ -121,5 +138,5 @@ int loop_run(struct attempt *attempt, struct error *err)
 		}
 		attempt_tick(attempt);
 	}
-	return checkpoint_write(attempt, RUN_COMPLETE, err);
+	return finish(attempt, err);
 }

@@ -274,6 +274,15 @@ int recorder_after(struct recorder *r, const struct model_state *state,
 	return add_profiles(r, state, step, err);
 }
 
+const double *recorder_series(const struct recorder *r, const char *name, size_t *count)
+{
+	*count = r->now.rows;
+	for (size_t i = 0; i < r->model->series_count; i++)
+		if (!strcmp(r->model->series[i].name, name))
+			return r->columns[RECORDER_OWN + i];
+	return NULL;
+}
+
 int recorder_mark(struct recorder *r, struct error *err)
 {
 	size_t bytes = (r->model->series_count + 1) * sizeof *r->mark.sums;

@@ -31,6 +31,9 @@ void recorder_before(
 int recorder_after(struct recorder *recorder, const struct model_state *state,
 	const struct recorder_step *step, struct error *err);
 
+/* The recorded values of a series [count], NULL where the model has none of that name. */
+const double *recorder_series(const struct recorder *recorder, const char *name, size_t *count);
+
 /* Remember this place as the one where the run goes on if it gets a later end. EX_SOFTWARE. */
 int recorder_mark(struct recorder *recorder, struct error *err);
 

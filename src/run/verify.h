@@ -9,4 +9,9 @@
  * and `out` stays empty. EX_SOFTWARE. */
 int verify_run_file(struct run_file *file, struct text *out, struct error *err);
 
+/* Whether the mass that is there and what has left, [count] each, add up to the same at all times, up to
+ * the rounding of `steps` steps; else a line in `out`. */
+bool verify_mass(
+	const double *mass, const double *left, size_t count, uint64_t steps, struct text *out);
+
 #endif

@@ -29,6 +29,7 @@
 /* Steps, counted from 1, at which something happens; 0: never. */
 static struct {
 	uint64_t fail, vanish, raise_at[2]; /* fail; the time step becomes NaN; raise `number` */
+	uint64_t lose;                      /* mass from here on */
 	int number;
 } logistic;
 
@@ -132,7 +133,7 @@ static void logistic_observe(const struct model_state *s, double *values)
 	values[0] = s->value[s->cells - 1];
 	values[2] = s->count[0] < 5 ? NAN : s->value[s->cells - 1];
 	values[4] = s->count[0] > 0;
-	values[5] = 1024 - s->count[1];
+	values[5] = 1024 - s->count[1] - (logistic.lose && s->count[0] >= (double)logistic.lose);
 	values[6] = s->count[1];
 	values[7] = clock_wall();
 }

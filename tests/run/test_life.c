@@ -124,6 +124,21 @@ static void a_failure_keeps_the_checkpoint_and_says_when_and_why(void **state)
 	assert_contains(report.reason, "negative thickness");
 }
 
+static void a_run_that_loses_mass_is_not_complete(void **state)
+{
+	struct config config = logistic_config("");
+	struct run_report report;
+	struct error err = {0};
+
+	(void)state;
+	logistic.lose = 25;
+	assert_int_equal(execute(&config, "a", false, &err), -1);
+	assert_int_equal(err.code, EX_FAILED);
+	assert_contains(err.text, "mass and mass_outflow add up to 1024 at first and 1 from it later");
+	report = report_of("a");
+	assert_int_equal(report.state, RUN_STATE_FAILED);
+}
+
 static void the_state_is_known_without_the_status_file(void **state)
 {
 	struct config config = logistic_config("");
@@ -271,6 +286,7 @@ int main(void)
 		TEST(another_config_is_refused_and_the_keys_are_named),
 		TEST(checkpoint_keys_are_not_another_config),
 		TEST(another_numerics_version_is_refused),
+		TEST(a_run_that_loses_mass_is_not_complete),
 		TEST(a_failure_keeps_the_checkpoint_and_says_when_and_why),
 		TEST(the_state_is_known_without_the_status_file),
 		TEST(a_failed_run_starts_anew_only_when_told),

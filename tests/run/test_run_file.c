@@ -334,6 +334,20 @@ static void mass_that_is_no_number_is_found(void **state)
 	assert_breach("nan from it later");
 }
 
+/* As was seen after 682,290 steps of a run that did not lose any. */
+static void the_rounding_of_very_many_steps_is_no_loss(void **state)
+{
+	const double mass[] = {310000000009, 310000000011.6}, left[] = {0, 0};
+	struct text out = {0};
+
+	(void)state;
+	assert_true(verify_mass(mass, left, 2, 682290, &out));
+	assert_true(out.length == 0);
+	assert_false(verify_mass(mass, left, 2, 10000, &out));
+	assert_non_null(strstr(text_string(&out), "2.6 from it later"));
+	text_clean(&out);
+}
+
 static void a_different_bit_is_told_with_its_place(void **state)
 {
 	struct config config = logistic_config(settings);
@@ -396,6 +410,7 @@ int main(void)
 		TEST(a_trailer_that_tells_otherwise_is_found),
 		TEST(mass_that_is_lost_is_found),
 		TEST(mass_that_is_no_number_is_found),
+		TEST(the_rounding_of_very_many_steps_is_no_loss),
 		TEST(a_different_bit_is_told_with_its_place),
 		TEST(another_shape_and_config_are_told),
 	};
