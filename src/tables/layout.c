@@ -22,12 +22,9 @@ int layout_fail(const struct layout *layout, const struct term *term, struct err
 
 int layout_place_error(const struct layout *layout, const struct term *term, struct error *err)
 {
-	const struct error lower = *err;
-
-	if (err->code != EX_DATAERR || err->file[0])
-		return -1;
-	*err = (struct error){0};
-	return layout_fail(layout, term, err, "%s", lower.text);
+	if (err->code == EX_DATAERR && !err->file[0])
+		(void)error_context(err, "%s", layout->what);
+	return error_place(err, layout->experiment->path, term->line, term->column);
 }
 
 /* The value of a key: its author's text where the run has one that is in force. */
