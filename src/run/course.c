@@ -49,10 +49,9 @@ static int compare_config(
 	error_at(err, EX_DATAERR, run_file_path(file), 0, 0,
 		"was made from another config (%s); %sname another folder with -o, or remove this one",
 		list.length ? text_string(&list) : "one that this version cannot read",
-		later
-			? "it goes on to a later time.end where nothing else changes: leave the other keys as "
-			  "they were, or "
-			: "");
+		later ? "it goes on to a later time.end where nothing else changes: "
+				"leave the other keys as they were, or "
+			  : "");
 done:
 	text_clean(&keys);
 	text_clean(&list);
@@ -67,8 +66,8 @@ static int compare_numerics(const struct attempt *attempt, struct run_file *file
 	if (version == attempt->model->numerics_version)
 		return 0;
 	return error_at(err, EX_DATAERR, run_file_path(file), 0, 0,
-		"was made with numerics_version %g, and this program has %d; name another folder with -o, "
-		"or remove this one",
+		"was made with numerics_version %g, and this program has %d; "
+		"name another folder with -o, or remove this one",
 		version, attempt->model->numerics_version);
 }
 

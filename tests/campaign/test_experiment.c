@@ -180,12 +180,12 @@ static void repeats_come_after_one_another(void **state)
 
 static void a_name_has_what_varies_as_it_was_written(void **state)
 {
-	struct experiment e = read_good("base: base.yaml\n"
-									"runs:\n"
-									"  - {model: dry, slope: [22 deg, 0.1 rad], "
-									"rheology.mu_s: tan(25.5 deg)}\n"
-									"  - {rheology.mu_s: '0.4'}\n",
-		NULL, 0);
+	struct experiment e =
+		read_good("base: base.yaml\n"
+				  "runs:\n"
+				  "  - {model: dry, slope: [22 deg, 0.1 rad], rheology.mu_s: tan(25.5 deg)}\n"
+				  "  - {rheology.mu_s: '0.4'}\n",
+			NULL, 0);
 
 	(void)state;
 	assert_readable(&e.runs[0], "model-dry_slope-22deg");
@@ -470,7 +470,8 @@ static void what_is_wrong_is_refused_with_its_place(void **state)
 	} cases[] = {
 		{"bse: base.yaml\n", "study.yaml:1:1: unknown key 'bse'; did you mean 'base'?"},
 		{"title: x\nzzzzzzzz: 1\n",
-			"study.yaml:2:1: unknown key 'zzzzzzzz'; known are: title, source, base, set, runs, "
+			"study.yaml:2:1: unknown key 'zzzzzzzz'; "
+			"known are: title, source, base, set, runs, "
 			"repeat, timing, tables, plots, observations, published, slurm"},
 		{"base: base.yaml\nbase: base.yaml\n",
 			"study.yaml:2:1: duplicate key 'base'; it is already on line 1"},
