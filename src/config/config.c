@@ -178,13 +178,13 @@ static int check_fractions(
 			err, EX_DATAERR, "layer_fractions: they add up to %s, not to 1", text_real(sum, shown));
 		return field_blame(reader, "layer_fractions", NULL, -1, err);
 	}
-	if (config->model != MODEL_DRY || config->pressure == PRESSURE_HYDROSTATIC)
+	if (config->model != MODEL_DRY || config->pressure == PRESSURE_HYDROSTATIC ||
+		config->pressure_solver.operator_ == OPERATOR_SYMMETRIC)
 		return 0;
 	(void)error_set(err, EX_DATAERR,
-		"layer_fractions: they need pressure: hydrostatic; the non-hydrostatic pressure is solved "
-		"for on "
-		"equal layers");
-	return field_blame(reader, "layer_fractions", "pressure", -1, err);
+		"layer_fractions: pressure_solver.operator: pointwise is P1's, of equal layers; symmetric "
+		"takes any");
+	return field_blame(reader, "layer_fractions", "pressure_solver.operator", -1, err);
 }
 
 /* What leaves at one end comes in at the other. */

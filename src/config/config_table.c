@@ -114,8 +114,7 @@ static const struct field fields[] = {
 	INTEGER(layers, FIELD_REQUIRED | LEADING, "10", "[1, 512]",
 		"layers from the bed to the surface (N)"),
 	REALS(layer_fractions, FIELD_UNSORTED, "1", "[]", "[1e-6, 1]",
-		"thickness of each layer from the bed up, as a share of the whole; []: equal; others need "
-		"hydrostatic pressure"),
+		"thickness of each layer from the bed up, as a share of the whole; []: equal"),
 	INTEGER(n_ini_guess, DRY | LEADING, "0", "[0, 511]",
 		"layers of the coarse system behind the first pressure guess; divides layers; 0: none"),
 

@@ -22,18 +22,19 @@ KERNEL_PART void force_begin(const struct model_state *s, struct chunk chunk, st
 }
 
 /* Add dt T of layer a (from 0), P1 (9b), (9c):
- *   T^u = -(h/2) d_x(q_a + q_{a+1}) + xi_a (q_{a+1} - q_a),  T^w = N (q_a - q_{a+1}),
- * with q the mean of two faces, d_x q their difference and xi_a = (a + 1/2) d_x h + N d_x b. `low`,
- * `high` are the pressures below and above at the faces left of the cells; none at the surface. */
+ *   T^u = -(h/2) d_x(q_a + q_{a+1}) + d_x Z_a/l_a (q_{a+1} - q_a),  T^w = (q_a - q_{a+1})/l_a,
+ * with q the mean of two faces, d_x q their difference and Z_a the middle of the layer. `low`, `high` are
+ * the pressures below and above at the faces left of the cells; none at the surface. */
 KERNEL_PART void force_add(const struct model_state *s, const struct force *force, int cells, int a,
 	bool top, double dt, const double *restrict h, const double *restrict low,
 	const double *restrict high, double *restrict U, double *restrict W)
 {
-	double n = s->layers, dx = s->grid.dx;
+	double n = dry_layers_of(s, a), dx = s->grid.dx, thin = 1 / dry_layer(s, a);
+	double middle = 0.5 * (s->level[a] + s->level[a + 1]);
 
 	for (int k = 0; k < cells; k++) {
 		double high_l = top ? 0 : high[k], high_r = top ? 0 : high[k + 1];
-		double xi = ((a + 0.5) * force->dh[k] + force->db[k]) / (2 * dx);
+		double xi = thin * ((middle * force->dh[k] + force->db[k]) / (2 * dx));
 		double mean = 0.5 * (low[k] + low[k + 1]), mean_high = 0.5 * (high_l + high_r);
 		double slope = (low[k + 1] - low[k] + high_r - high_l) / dx;
 

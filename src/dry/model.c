@@ -98,18 +98,25 @@ static size_t layout(struct model_state *s, bool cartesian, double *memory)
 	return (7 + cartesian + 5 * n + before + 2 * coarse) * stride + (6 + 2 * n) * faces + 6 * n + 6;
 }
 
+/* Each layer of a projection is as many of the model. */
 static int projection_init(struct model_state *s, const struct config *config,
 	struct projection *problem, struct error *err)
 {
+	size_t merged = (size_t)(s->layers / problem->layers);
 	const struct pressure_options options = {.relaxation = config->pressure_solver.relaxation,
 		.threads = s->threads,
 		.symmetric = s->operator_->symmetric,
-		.periodic = s->grid.periodic};
+		.periodic = s->grid.periodic,
+		.shares = config->layer_fractions.count ? s->work : NULL};
+
+	for (size_t a = 0; a < (size_t)problem->layers; a++) /* `work` has no other use yet */
+		s->work[a] = (s->level[(a + 1) * merged] - s->level[a * merged]) / (double)merged;
 
 	TRY(pressure_system_init(
 		&problem->system, problem->layers, s->grid.faces, !s->solver->matrix_free, err));
 	problem->system.symmetric = s->operator_->symmetric;
 	problem->system.periodic = s->grid.periodic;
+	pressure_system_set_shares(&problem->system, options.shares);
 	return s->solver->create(problem->layers, s->grid.faces, &options, &problem->memory, err);
 }
 
@@ -164,7 +171,6 @@ static int fill(struct model_state *s, const struct config *config, struct error
 {
 	double mass = 0;
 
-	fill_levels(s, &config->layer_fractions);
 	TRY(initial_fill(config, &s->grid, s->b, s->h, err));
 	if (s->bed != s->b)
 		add_plane(s, config);
@@ -210,6 +216,7 @@ static int create(const struct config *config, struct model_state **out, struct 
 		return error_memory(err, count * sizeof *s->memory);
 	}
 	(void)layout(s, cartesian, s->memory);
+	fill_levels(s, &config->layer_fractions);
 	if ((s->par.non_hydrostatic && projection_init(s, config, &s->full, err)) ||
 		(s->coarse.layers && projection_init(s, config, &s->coarse, err)) || fill(s, config, err)) {
 		destroy(s);

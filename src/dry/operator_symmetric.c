@@ -1,11 +1,11 @@
 /* The projection with the constraint as the discrete adjoint of the pressure force: the matrix
- * A = sum over the cells of T^T T / h, right side -(1/dt) sum of T^T u, is symmetric and positive
- * definite, and the step takes out of the kinetic energy exactly what the pressure works.
+ * A = sum over the cells and layers of N l_a T^T T / h, right side -(1/dt) sum of N l_a T^T u, is
+ * symmetric and positive definite, and the step takes out of the kinetic energy exactly what the pressure works.
  *
  * In cell i and layer a the force (P1 9b, 9c) on the four pressures around it, left and right below
  * (l, r) and above (L, R), with q a mean and d_x q a difference of two faces:
- *   T^u = (p - s) q_l + (-p - s) q_r + (p + s) q_L + (-p + s) q_R,  p = h/(2 dx), s = xi_a/2
- *   T^w = N/2 (q_l + q_r - q_L - q_R),   xi_a = (a - 1/2) d_x h + N d_x b, central. */
+ *   N l_a T^u = (p - s) q_l + (-p - s) q_r + (p + s) q_L + (-p + s) q_R,  p = N l_a h/(2 dx), s = N d_x Z_a/2
+ *   N l_a T^w = N/2 (q_l + q_r - q_L - q_R), with d_x Z_a of the middle of the layer, central. */
 #include <string.h>
 
 #include "base/kernel.h"
@@ -31,15 +31,17 @@ static void add_layer(const struct pressure_input *in, struct pressure_system *s
 	const struct grid *grid = in->grid;
 	const double *h = in->h, *b = in->b;
 	double n = in->layers, half = 0.5 * n, dx = grid->dx;
+	double share = system->cells.share[a], thin = system->cells.thin[a];
+	double middle = system->cells.place[a] + 0.5; /* in mean layers */
 	bool top = a == in->layers - 1;
 	struct bands low = bands_of(system, a), high = bands_of(system, top ? a : a + 1);
 
 	for (int i = 1; i <= grid->cells; i++) {
 		int l = i - 1, r = i;
 		double wet_l = in->dry[l] ? 0 : 1, wet_r = in->dry[r] ? 0 : 1, wet_lr = wet_l * wet_r;
-		double inverse = h[i] > DRY_NO_MOMENTUM ? 1 / h[i] : 0;
-		double p = 0.5 * h[i] / dx;
-		double s = 0.25 * ((a + 0.5) * (h[i + 1] - h[i - 1]) + n * (b[i + 1] - b[i - 1])) / dx;
+		double inverse = h[i] > DRY_NO_MOMENTUM ? thin * (1 / h[i]) : 0;
+		double p = share * (0.5 * h[i] / dx);
+		double s = 0.25 * (middle * (h[i + 1] - h[i - 1]) + n * (b[i + 1] - b[i - 1])) / dx;
 		double cl = p - s, cr = -p - s, cL = p + s, cR = -p + s, nn = half * half;
 
 		low.diagonal[l] += wet_l * (cl * cl + nn) * inverse;
@@ -100,7 +102,7 @@ static void fill_cells(const struct pressure_input *in, struct pressure_cells *c
 	cells->quarter_nn = 0.25 * n * n;
 }
 
-/* The right side -(1/dt) sum of T^T u of a layer as it acts on its lower (`sign` 1) or upper interface:
+/* The right side -(1/dt) sum of N l_a T^T u of a layer as it acts on its lower (`sign` 1) or upper interface:
  * what each cell gives to its left face, and to its right one. */
 KERNEL static void layer_terms(const struct pressure_input *in, const struct pressure_cells *cells,
 	int a, double sign, double *restrict left, double *restrict right)
@@ -108,10 +110,11 @@ KERNEL static void layer_terms(const struct pressure_input *in, const struct pre
 	const double *restrict h = in->h, *restrict lean = cells->lean, *restrict tilt = cells->tilt;
 	const double *restrict u = in->u + (size_t)a * in->grid->stride;
 	const double *restrict w = in->w + (size_t)a * in->grid->stride;
-	double half = 0.5 / in->grid->dx, up = sign * 0.5 * in->layers;
+	double half = cells->share[a] * (0.5 / in->grid->dx), up = sign * 0.5 * in->layers;
+	double place = cells->place[a];
 
 	for (int i = 1; i <= in->grid->cells; i++) {
-		double p = half * h[i] * u[i], rest = up * w[i] - sign * (lean[i] * a + tilt[i]) * u[i];
+		double p = half * h[i] * u[i], rest = up * w[i] - sign * (lean[i] * place + tilt[i]) * u[i];
 
 		left[i] = p + rest;
 		right[i] = rest - p;

@@ -44,27 +44,35 @@ static void assemble(struct model_state *s, struct projection *problem, double d
 }
 
 /* Layer averages for the coarse system (P1 4.1). */
-static void average_layers(
-	const double *fine, int merged, double *coarse, int layers, size_t stride)
+static void average_layers(const struct model_state *s, const double *fine, double *coarse)
 {
-	for (int c = 0; c < layers; c++)
+	int merged = s->layers / s->coarse.layers;
+	size_t stride = s->grid.stride;
+
+	for (int c = 0; c < s->coarse.layers; c++) {
+		int first = c * merged, end = first + merged;
+
 		for (size_t i = 0; i < stride; i++) {
 			double sum = 0;
 
-			for (int a = c * merged; a < (c + 1) * merged; a++)
-				sum += fine[(size_t)a * stride + i];
-			coarse[(size_t)c * stride + i] = sum / merged;
+			for (int a = first; a < end; a++)
+				sum += dry_layer(s, a) * fine[(size_t)a * stride + i];
+			coarse[(size_t)c * stride + i] = sum / (s->level[end] - s->level[first]);
 		}
+	}
 }
 
 /* Start the full system from the coarse solution, linear over the height between the interfaces that
  * both have. (The index of P1 4.1 is inconsistent; linear takes the fewest iterations.) */
-static void prolong(struct pressure_system *full, const struct pressure_system *coarse)
+static void prolong(struct model_state *s)
 {
+	struct pressure_system *full = &s->full.system;
+	const struct pressure_system *coarse = &s->coarse.system;
 	int merged = full->layers / coarse->layers;
 
 	for (int a = 0; a < full->layers; a++) {
-		double t = (double)(a % merged) / merged;
+		double below = s->level[a - a % merged], above = s->level[a - a % merged + merged];
+		double t = (s->level[a] - below) / (above - below);
 		const double *low = pressure_system_x(coarse, a / merged);
 		const double *high = pressure_system_x(coarse, a / merged + 1);
 		double *x = pressure_system_x(full, a);
@@ -109,21 +117,19 @@ static int solve(
 int dry_pressure(struct model_state *s, double dt, struct error *err)
 {
 	struct pressure_system *system = &s->full.system;
-	size_t faces = (size_t)s->grid.faces, stride = s->grid.stride;
+	size_t faces = (size_t)s->grid.faces;
 
 	mark_dry(s);
 	dry_velocities(s);
 	assemble(s, &s->full, dt);
 	s->coarse_iterations = 0;
 	if (s->coarse.layers) {
-		int merged = s->layers / s->coarse.layers;
-
-		average_layers(s->u, merged, s->coarse.u, s->coarse.layers, stride);
-		average_layers(s->w, merged, s->coarse.w, s->coarse.layers, stride);
+		average_layers(s, s->u, s->coarse.u);
+		average_layers(s, s->w, s->coarse.w);
 		assemble(s, &s->coarse, dt);
 		start(s, &s->coarse.system);
 		TRY(solve(s, &s->coarse, &s->coarse_iterations, err));
-		prolong(system, &s->coarse.system);
+		prolong(s);
 	} else {
 		start(s, system);
 	}

@@ -64,11 +64,12 @@ KERNEL_PART void cell_terms(const struct pressure_cells *cells, int i, const dou
 	double tilt = cells->tilt[i];
 
 	for (int k = 0; k < blocks; k++, l += LANES, r += LANES) {
-		v8 s = lean * v8_numbers(k) + tilt, cs = cells->cross * s;
+		v8 s = lean * v8_load(cells->place + v8_at(k)) + tilt, cs = cells->cross * s;
+		v8 share = v8_load(cells->share + v8_at(k)), thin = v8_load(cells->thin + v8_at(k));
 		v8 l0 = v8_load(l), l1 = v8_load(l + 1), r0 = v8_load(r), r1 = v8_load(r + 1);
 		v8 jump = (l0 + l1) - (r0 + r1), difference = (l1 + r1) - (l0 + r0);
-		v8 g = stretch * jump + cs * difference;
-		v8 e = cs * jump + (s * s + cells->quarter_nn) * inverse * difference;
+		v8 g = share * stretch * jump + cs * difference;
+		v8 e = cs * jump + (s * s + cells->quarter_nn) * (thin * inverse) * difference;
 
 		out->low[k] = g - e;
 		out->high[k] = g + e;

@@ -49,12 +49,12 @@ static void destroy(void *memory)
 	free(m);
 }
 
-static int allocate(struct memory *m, struct error *err)
+static int allocate(struct memory *m, const double *shares, struct error *err)
 {
 	int layers = m->columns.layers, faces = m->columns.faces, groups = m->columns.groups, blocks;
 	size_t all = columns_count(&m->columns);
 
-	TRY(fast_diagonal_init(&m->fast, layers, faces, m->periodic, err));
+	TRY(fast_diagonal_init(&m->fast, layers, faces, m->periodic, shares, err));
 	TRY(strips_init(&m->strips, layers, faces, err));
 	blocks = fast_diagonal_blocks(&m->fast);
 	return arrays_allocate(
@@ -74,7 +74,7 @@ static int create(
 	m->columns = columns_make(layers, faces);
 	m->threads = options->threads;
 	m->periodic = options->periodic;
-	if (allocate(m, err) != 0) {
+	if (allocate(m, options->shares, err) != 0) {
 		destroy(m);
 		return -1;
 	}

@@ -37,13 +37,14 @@ KERNEL_PART void fill_corners(
 	double pp = cells->stretch[i], lean = cells->lean[i], tilt = cells->tilt[i];
 
 	for (int k = 0; k < blocks; k++) {
-		v8 a = v8_numbers(k), s = lean * a + tilt, inside = V8_WHERE(a < (double)layers);
-		v8 twice = 2 * cells->cross * s;
-		v8 square = (s * s + cells->quarter_nn) * cells->inverse[i];
+		v8 inside = V8_WHERE(v8_numbers(k) < (double)layers);
+		v8 s = lean * v8_load(cells->place + v8_at(k)) + tilt, twice = 2 * cells->cross * s;
+		v8 thin = v8_load(cells->thin + v8_at(k)), along = pp * v8_load(cells->share + v8_at(k));
+		v8 square = (s * s + cells->quarter_nn) * (thin * cells->inverse[i]);
 
-		out->plus[k] = inside * (pp + twice + square);
-		out->minus[k] = inside * (pp - twice + square);
-		out->apart[k] = inside * (pp - square);
+		out->plus[k] = inside * (along + twice + square);
+		out->minus[k] = inside * (along - twice + square);
+		out->apart[k] = inside * (along - square);
 	}
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "linear/arrays.h"
+#include "linear/modes.h"
 
 size_t fast_diagonal_count(const struct fast_diagonal *fast)
 {
@@ -21,6 +22,9 @@ static void fill_modes(struct fast_diagonal *fast)
 {
 	size_t n = (size_t)fast->columns.layers, half = fast->half;
 	long double step = acosl(-1) / (long double)n, scale = sqrtl(2 / (long double)n);
+
+	fast->middle = ((double)n - 1) / 2;
+	fast->spread = ((double)n * (double)n - 1) / 12;
 
 	for (size_t m = 0; m < 2 * half; m++)
 		fast->of_stretch[m] = fast->of_mean[m] = 1;
@@ -41,23 +45,76 @@ static void fill_modes(struct fast_diagonal *fast)
 	}
 }
 
-int fast_diagonal_init(
-	struct fast_diagonal *fast, int layers, int faces, bool periodic, struct error *err)
+/* Mean and variance of the places (pressure_system.h). */
+static void fill_places(struct fast_diagonal *fast, const double *shares)
+{
+	double n = fast->columns.layers, below = 0, sum = 0, squares = 0;
+
+	for (int a = 0; a < fast->columns.layers; a++) {
+		double place = below + 0.5 * (shares[a] - 1);
+
+		sum += place;
+		squares += place * place;
+		below += shares[a];
+	}
+	fast->middle = sum / n;
+	fast->spread = squares / n - fast->middle * fast->middle;
+}
+
+/* Those of unequal layers. */
+static int find_modes(struct fast_diagonal *fast, const double *shares, struct error *err)
+{
+	size_t n = (size_t)fast->columns.layers, half = fast->half, lower = (n + 1) / 2;
+	double *modes, *stretch;
+	void *block;
+	int failed;
+
+	TRY(arrays_allocate(
+		(struct arrays_part[]){ARRAY(modes, n * n), ARRAY(stretch, n), {0}}, &block, err));
+	failed = modes_find(shares, (int)n, modes, stretch, err);
+	for (size_t m = 0; m < 2 * half; m++)
+		fast->of_stretch[m] = fast->of_mean[m] = 1;
+	for (size_t m = 0; m < n; m++) {
+		size_t at = m < lower ? m : half + m - lower;
+
+		fast->of_stretch[at] = stretch[m];
+		fast->of_mean[at] = 1 - stretch[m];
+		fast->kept[at] = 1;
+		for (size_t a = 0; a < n; a++) {
+			float value = (float)modes[m * n + a];
+
+			fast->any_to_modes[a * 2 * half + at] = value;
+			fast->any_to_layers[at * fast->columns.stride + a] = value;
+		}
+	}
+	fill_places(fast, shares);
+	free(block);
+	return failed;
+}
+
+int fast_diagonal_init(struct fast_diagonal *fast, int layers, int faces, bool periodic,
+	const double *shares, struct error *err)
 {
 	size_t half = fast_diagonal_half(layers);
 	size_t square = half * half, row = (size_t)faces + 1, all, seam = periodic ? 2 * half : 0;
+	size_t any = shares ? 2 * half : 0;
 
-	*fast = (struct fast_diagonal){.columns = columns_make(layers, faces), .half = half};
+	*fast = (struct fast_diagonal){
+		.columns = columns_make(layers, faces), .half = half, .unequal = shares != NULL};
 	all = fast_diagonal_count(fast);
 	TRY(arrays_allocate(
 		(struct arrays_part[]){ARRAY(fast->to_modes[0], square), ARRAY(fast->to_modes[1], square),
 			ARRAY(fast->to_layers[0], square), ARRAY(fast->to_layers[1], square),
+			ARRAY(fast->any_to_modes, any * (size_t)layers),
+			ARRAY(fast->any_to_layers, any * fast->columns.stride),
 			ARRAY(fast->of_stretch, 2 * half), ARRAY(fast->of_mean, 2 * half),
 			ARRAY(fast->kept, 2 * half), ARRAY(fast->multiplier, all), ARRAY(fast->inverse, all),
 			ARRAY(fast->bands[0], row), ARRAY(fast->bands[1], row), ARRAY(fast->bands[2], row),
 			ARRAY(fast->bands[3], row), ARRAY(fast->seam, periodic ? all : 0),
 			ARRAY(fast->seam_scale, seam), ARRAY(fast->seam_jump, seam), {0}},
 		&fast->memory, err));
+	if (shares)
+		return find_modes(fast, shares, err);
 	fill_modes(fast);
 	return 0;
 }
@@ -74,14 +131,13 @@ void fast_diagonal_prepare(struct fast_diagonal *fast, const struct pressure_sys
 {
 	const struct pressure_cells *cells = &system->cells;
 	double *kd = fast->bands[0], *md = fast->bands[1], *ko = fast->bands[2], *mo = fast->bands[3];
-	double n = system->layers, mean = (n - 1) / 2, spread = (n * n - 1) / 12;
 	double k_before = 0, m_before = 0; /* of the cell before the face */
 
 	for (int f = 0; f < system->faces; f++) {
-		double lean = cells->lean[f + 1], middle = cells->tilt[f + 1] + lean * mean;
+		double lean = cells->lean[f + 1], middle = cells->tilt[f + 1] + lean * fast->middle;
 		double k = cells->stretch[f + 1];
-		double m =
-			(cells->quarter_nn + middle * middle + lean * lean * spread) * cells->inverse[f + 1];
+		double m = (cells->quarter_nn + middle * middle + lean * lean * fast->spread) *
+				   cells->inverse[f + 1];
 		bool dry = cells->dry[f], apart = dry || (f > 0 && cells->dry[f - 1]);
 
 		kd[f] = dry ? 1 : k_before + k;
@@ -246,6 +302,26 @@ void fast_diagonal_seam_join(const struct fast_diagonal *fast, float *modes)
 		modes[m] = modes[last + m] = 0.5F * (modes[m] + modes[last + m]);
 }
 
+/* Eight columns by sixteen modes in registers at a time. */
+KERNEL_PART void any_to_modes(const struct fast_diagonal *fast, const float *in, float *out)
+{
+	size_t stride = fast->columns.stride, row = 2 * fast->half;
+	size_t layers = (size_t)fast->columns.layers;
+
+	for (size_t k = 0; k < row; k += MODES) {
+		v16f sum[LANES] = {0};
+
+		for (size_t a = 0; a < layers; a++) {
+			v16f modes = modes_load(fast->any_to_modes + a * row + k);
+
+			for (size_t c = 0; c < LANES; c++)
+				sum[c] += in[c * stride + a] * modes;
+		}
+		for (size_t c = 0; c < LANES; c++)
+			modes_store(out + c * row + k, sum[c]);
+	}
+}
+
 /* Sums over the even and the odd layers, eight columns by sixteen modes in registers at a time; a mode
  * is their sum, and its partner their difference. */
 KERNEL void fast_diagonal_to_modes(
@@ -260,6 +336,10 @@ KERNEL void fast_diagonal_to_modes(
 
 		for (size_t i = 0; i < LANES * stride; i++)
 			in[i] = (float)from[(size_t)g * LANES * stride + i];
+		if (fast->unequal) {
+			any_to_modes(fast, in, out);
+			continue;
+		}
 		for (size_t k = 0; k < half; k += MODES) {
 			v16f even[LANES] = {0}, odd[LANES] = {0};
 
@@ -309,6 +389,25 @@ KERNEL_PART void store_layers(double *to, v16f even, v16f odd, size_t room)
 		v8_store(to + v8_at(3), INTERLEAVED(even, odd, 12));
 }
 
+/* Beyond the last mode of either half there are zeros. */
+KERNEL_PART void any_to_layers(const struct fast_diagonal *fast, const float *in, double *out)
+{
+	size_t stride = fast->columns.stride, row = 2 * fast->half;
+
+	for (size_t k = 0; k < stride; k += LANES) {
+		v8f sum[LANES] = {0};
+
+		for (size_t m = 0; m < row; m++) {
+			v8f layers = *(const v8f *)(fast->any_to_layers + m * stride + k);
+
+			for (size_t c = 0; c < LANES; c++)
+				sum[c] += in[c * row + m] * layers;
+		}
+		for (size_t c = 0; c < LANES; c++)
+			v8_store(out + c * stride + k, __builtin_convertvector(sum[c], v8));
+	}
+}
+
 /* The even layers are made of the sums and the odd ones of the differences. */
 KERNEL void fast_diagonal_to_layers(
 	const struct fast_diagonal *fast, float *modes, double *to, int first, int last)
@@ -320,6 +419,10 @@ KERNEL void fast_diagonal_to_layers(
 		float *in = modes + (size_t)g * LANES * 2 * half;
 		double *out = to + (size_t)g * LANES * stride;
 
+		if (fast->unequal) {
+			any_to_layers(fast, in, out);
+			continue;
+		}
 		for (size_t c = 0; c < LANES; c++)
 			pair_modes(in + c * 2 * half, half);
 		for (size_t k = 0; k < half && 2 * k < stride; k += MODES) {

@@ -4,11 +4,13 @@
  * Without xi the operator is B^T B (x) K + D^T D (x) M, where B q = q_a + q_{a+1} and
  * D q = q_a - q_{a+1} act over the layers, and K and M are tridiagonal along x. With
  * t_m = (m + 1/2) pi/N the vectors cos(a t_m), m = 0..N-1, diagonalise both, to 2 + 2 cos t_m and
- * 2 - 2 cos t_m (with half the weight at the bed), so that N tridiagonal systems along x are left.
+ * 2 - 2 cos t_m (with half the weight at the bed), so that N tridiagonal systems along x are left. Unequal
+ * layers have B^T L B and D^T L^-1 D, L their thicknesses, and modes of their own that diagonalise both.
  *
  * Modes m and N - 1 - m are the same at even a and opposite at odd a. A transform does half of the work
  * for both: a column of modes is its lower half, up to a multiple of MODES, and then the partners of
- * these in the same order (of the middle mode of an odd N, which has none, a zero). */
+ * these in the same order (of the middle mode of an odd N, which has none, a zero). Modes of unequal layers
+ * have no partners, and take the same places. */
 #ifndef TALUS_FAST_DIAGONAL_H
 #define TALUS_FAST_DIAGONAL_H
 
@@ -22,11 +24,15 @@ struct fast_diagonal {
 	/* sqrt(2/N) cos(a t_m), for even and for odd a: [layers of that kind][half] with m along the row,
 	 * and their transposes [lower modes][half] with the layers along the row. */
 	float *to_modes[2], *to_layers[2];
-	double *of_stretch; /* [2 half], 2 + 2 cos t_m; 1 in the padding */
-	double *of_mean;    /* [2 half], 2 - 2 cos t_m; 1 in the padding */
-	double *kept;       /* [2 half], 1; 0 in the padding */
-	float *multiplier;  /* columns of modes: L of the L D L^T of each tridiagonal system */
-	float *inverse;     /* columns of modes: 1/D */
+	/* Of unequal layers, else without elements: [layers][2 half] and [2 half][stride]. */
+	bool unequal;
+	float *any_to_modes, *any_to_layers;
+	double *of_stretch;    /* [2 half], 2 + 2 cos t_m; 1 in the padding */
+	double *of_mean;       /* [2 half], 2 - 2 cos t_m; 1 in the padding */
+	double middle, spread; /* mean and variance of the places of the layers */
+	double *kept;          /* [2 half], 1; 0 in the padding */
+	float *multiplier;     /* columns of modes: L of the L D L^T of each tridiagonal system */
+	float *inverse;        /* columns of modes: 1/D */
 	double *bands[4]; /* [faces + 1]: diagonals of K and M, and their coupling to the face before */
 	/* Of periodic ends, else without elements. With c = 1 at the first face and -1 at the last, the
 	 * solution z of a right side between walls becomes that on the ring by z - y (c z)/(c y). */
@@ -42,8 +48,9 @@ static inline size_t fast_diagonal_half(int layers)
 	return ((size_t)(layers + 1) / 2 + MODES - 1) / MODES * MODES;
 }
 
-int fast_diagonal_init(
-	struct fast_diagonal *fast, int layers, int faces, bool periodic, struct error *err);
+/* `shares` as in pressure_options. EX_SOFTWARE out of memory. */
+int fast_diagonal_init(struct fast_diagonal *fast, int layers, int faces, bool periodic,
+	const double *shares, struct error *err);
 void fast_diagonal_clean(struct fast_diagonal *fast);
 
 /* How many numbers the columns of modes take, and vectors one of them. */

@@ -19,8 +19,9 @@ struct stopping_rule {
 struct pressure_options {
 	double relaxation; /* over-relaxation factor, 1; 0: chosen by the method */
 	int threads;
-	bool symmetric; /* the operator */
-	bool periodic;  /* the ends */
+	bool symmetric;       /* the operator */
+	bool periodic;        /* the ends */
+	const double *shares; /* of the layers in mean layers, [layers]; NULL: equal */
 };
 
 struct pressure_solver {

@@ -10,6 +10,7 @@
 static size_t layout(struct pressure_system *system, double *memory, bool bands)
 {
 	size_t n = (size_t)system->layers * (size_t)system->faces, row = (size_t)system->faces + 1;
+	size_t column = ((size_t)system->layers / LANES + 1) * LANES;
 	struct pressure_cells *cells = &system->cells;
 	double **const banded[] = {&system->lower, &system->diagonal, &system->upper,
 		&system->below_lower, &system->below_diagonal, &system->below_upper, &system->above_lower,
@@ -17,12 +18,15 @@ static size_t layout(struct pressure_system *system, double *memory, bool bands)
 	double **const rows[] = {&cells->stretch, &cells->lean, &cells->tilt, &cells->inverse,
 		&system->weight, &system->rows[0], &system->rows[1], &system->rows[2], &system->rows[3],
 		&system->rows[4]};
+	double **const columns[] = {&cells->share, &cells->thin, &cells->place};
 	size_t at = 0;
 
 	for (size_t i = 0; bands && i < sizeof banded / sizeof *banded; i++, at += n)
 		*banded[i] = memory ? memory + at : NULL;
 	for (size_t i = 0; i < sizeof rows / sizeof *rows; i++, at += row)
 		*rows[i] = memory ? memory + at : NULL;
+	for (size_t i = 0; i < sizeof columns / sizeof *columns; i++, at += column)
+		*columns[i] = memory ? memory + at : NULL;
 	system->rhs = memory ? memory + at : NULL;
 	at += n;
 	system->x_stride = row + 1;
@@ -41,7 +45,21 @@ int pressure_system_init(
 	if (!system->memory)
 		return error_memory(err, count * sizeof *system->memory);
 	(void)layout(system, system->memory, bands);
+	pressure_system_set_shares(system, NULL);
 	return 0;
+}
+
+void pressure_system_set_shares(struct pressure_system *system, const double *shares)
+{
+	struct pressure_cells *cells = &system->cells;
+	double below = 0; /* the layer */
+
+	for (int a = 0; a < (system->layers / LANES + 1) * LANES; a++) {
+		cells->share[a] = shares && a < system->layers ? shares[a] : 1;
+		cells->thin[a] = 1 / cells->share[a];
+		cells->place[a] = below + 0.5 * (cells->share[a] - 1);
+		below += cells->share[a];
+	}
 }
 
 void pressure_system_clean(struct pressure_system *system)
@@ -59,13 +77,15 @@ KERNEL static void cell_terms(
 	const double *restrict stretch = system->cells.stretch, *restrict lean = system->cells.lean;
 	const double *restrict tilt = system->cells.tilt, *restrict inverse = system->cells.inverse;
 	double cross = system->cells.cross, nn = system->cells.quarter_nn;
+	double place = system->cells.place[a], share = system->cells.share[a];
+	double thin = system->cells.thin[a];
 
 	for (int i = 1; i < system->faces; i++) {
 		double jump = (x[i - 1] + y[i - 1]) - (x[i] + y[i]);
 		double difference = (y[i - 1] + y[i]) - (x[i - 1] + x[i]);
-		double s = lean[i] * a + tilt[i], cs = cross * s;
-		double g = stretch[i] * jump + cs * difference;
-		double e = cs * jump + (s * s + nn) * inverse[i] * difference;
+		double s = lean[i] * place + tilt[i], cs = cross * s;
+		double g = share * stretch[i] * jump + cs * difference;
+		double e = cs * jump + (s * s + nn) * (thin * inverse[i]) * difference;
 
 		low[i] = g - e;
 		high[i] = g + e;

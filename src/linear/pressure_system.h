@@ -20,18 +20,24 @@
 /* The symmetric operator. Cell i = 1..faces-1 lies between faces i - 1 and i; 0 and `faces` are ghosts
  * and zero, as is a cell without grains. With l, r the unknowns at its faces below layer a and L, R
  * those above, J = (l + L) - (r + R) and D = (L + R) - (l + r), the force of the cell and layer is
- *   T^u = h/(2 dx) J + s D,  T^w = -N/2 D,  s = xi_a/2 = lean a + tilt      (P1 9b, 9c)
- * and the cell adds to the product A q at its four corners the transposes of
- *   g = stretch J + cross s D,  e = cross s J + (s^2 + N^2/4) inverse D:
+ *   T^u = h/(2 dx) J + s/share D,  T^w = -N/(2 share) D,  s = N d_x Z_a/2 = lean place + tilt  (P1 9b, 9c)
+ * with share = N l_a, and Z_a the height of the middle of the layer. Of the kinetic energy it has the share
+ * l_a, and so the cell adds to the product A q at its four corners the transposes of
+ *   g = share stretch J + cross s D,  e = cross s J + (s^2 + N^2/4) inverse/share D:
  * g - e at l, -g - e at r, g + e at L, e - g at R. */
 struct pressure_cells {
 	double *stretch;   /* [faces + 1], h/(4 dx^2), 1/m */
-	double *lean;      /* [faces + 1], m/m: d_x h / 2, per layer */
-	double *tilt;      /* [faces + 1], m/m: s of the lowest layer */
+	double *lean;      /* [faces + 1], m/m: d_x h / 2, per mean layer */
+	double *tilt;      /* [faces + 1], m/m: s half a mean layer above the bed */
 	double *inverse;   /* [faces + 1], 1/h, 1/m */
 	double cross;      /* 1/(2 dx), 1/m */
 	double quarter_nn; /* N^2/4, 1 */
 	const bool *dry;   /* [faces], true: the unknown is 0 there; not owned */
+
+	/* Of the layers, which are a whole number of vectors and one more: */
+	double *share; /* thickness in mean layers, 1 */
+	double *thin;  /* 1/share */
+	double *place; /* of the middle, in mean layers above half a one: a where all are equal */
 };
 
 struct pressure_system {
@@ -59,9 +65,11 @@ struct pressure_system {
 	double *memory;  /* one block for all of the above */
 };
 
-/* Allocate a system, all zeros, with or without bands. EX_SOFTWARE out of memory. */
+/* Allocate a system of equal layers, all zeros, with or without bands. EX_SOFTWARE out of memory. */
 int pressure_system_init(
 	struct pressure_system *system, int layers, int faces, bool bands, struct error *err);
+/* The layers have these thicknesses [layers], in mean layers. */
+void pressure_system_set_shares(struct pressure_system *system, const double *shares);
 void pressure_system_clean(struct pressure_system *system);
 
 /* Row of layer a (from 0) of a [layers][faces] array. */

@@ -73,7 +73,8 @@ static void measure(struct strips *s, const struct pressure_system *system)
 	for (int g = 0; g < s->columns.groups; g++)
 		s->level[g] = 0;
 	for (int i = 1; i < system->faces; i++) {
-		double low = cells->tilt[i], high = low + (system->layers - 1) * cells->lean[i];
+		double low = cells->tilt[i] + cells->place[0] * cells->lean[i];
+		double high = cells->tilt[i] + cells->place[system->layers - 1] * cells->lean[i];
 		double square = low * low > high * high ? low * low : high * high;
 		int level = level_of(square / cells->quarter_nn);
 		int first = most(i - REACH, 0) / LANES;

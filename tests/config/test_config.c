@@ -155,9 +155,10 @@ static void rules_across_fields_blame_the_later_value(void **state)
 		{"pressure_solver: {operator: pointwise}\ndomain: {left: periodic, right: periodic}\n",
 			"a.yaml:5:16: pressure_solver.operator: pointwise has rows at walls and "
 			"outflows (P1 37), none at periodic ends; they take symmetric"},
-		{"layer_fractions: [0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.15, 0.05]\n",
-			"a.yaml:4:18: layer_fractions: they need pressure: hydrostatic; the non-hydrostatic "
-			"pressure is solved for on equal layers"},
+		{"layer_fractions: [0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.15, 0.05]\n"
+		 "pressure_solver: {operator: pointwise}\n",
+			"a.yaml:5:29: layer_fractions: pressure_solver.operator: pointwise is P1's, of equal "
+			"layers; symmetric takes any"},
 		{"rheology: {law: linear}\n",
 			"a.yaml:4:17: rheology.law: linear is a law of model: immersed"},
 		{"output: {profiles_at: [1 s, 3.5 s]}\n",

@@ -35,6 +35,9 @@ static const struct {
 	CASE("bottom=no-slip", "walls.mu_w=0.18", "erodible_bed_thickness=0"),
 	CASE("bottom=no-slip", "pressure=hydrostatic", "rheology.strain_rate=second-order"),
 	CASE("walls.mu_w=0.18", "pressure=hydrostatic", "layer_fractions=[0.1, 0.2, 0.3, 0.4]"),
+	CASE("layer_fractions=[0.1, 0.2, 0.3, 0.4]", "n_ini_guess=2"),
+	CASE("layer_fractions=[0.4, 0.3, 0.2, 0.1]", "erodible_bed_thickness=0",
+		"pressure_solver.method=block-direct"),
 	CASE("pressure=hydrostatic", "domain.left=periodic", "domain.right=periodic"),
 	CASE("domain.left=periodic", "domain.right=periodic", "slope=0 deg", "domain.x_max=0.2",
 		"domain.cells=40"),
@@ -163,6 +166,35 @@ static void the_front_runs_downhill_and_farther_on_a_steeper_slope(void **state)
 	assert_true(front[0] > 0.1);
 	assert_true(front[1] > front[0] + 0.01);
 	assert_true(front[2] > front[1] + 0.01);
+}
+
+/* How far the thickness is from that of another run of the same grid, in all. */
+static double apart(const char *layers, const char *fractions, const double *other, double *h)
+{
+	const char *const settings[] = {layers, fractions, "domain.x_max=0.6", "domain.cells=160"};
+	struct config config = read_config(settings, 4);
+	struct model_state *s = create(&config);
+	double sum = 0;
+
+	advance(s, 0.3);
+	memcpy(h, s->h, s->grid.stride * sizeof *h);
+	for (int i = 1; i <= s->grid.cells && other; i++)
+		sum += fabs(s->h[i] - other[i]) * s->grid.dx;
+	dry_model.free(s);
+	return sum;
+}
+
+/* The shear is at the bottom: six layers that are thinner there are nearer to twenty than six equal ones. */
+static void layers_thin_at_the_bottom_are_nearer_to_many(void **state)
+{
+	double many[162], h[162], equal, graded;
+
+	(void)state;
+	(void)apart("layers=20", "layer_fractions=[]", NULL, many);
+	equal = apart("layers=6", "layer_fractions=[]", many, h);
+	graded = apart("layers=6", "layer_fractions=[0.05, 0.1, 0.1, 0.15, 0.25, 0.35]", many, h);
+	print_message("# %g %g\n", equal, graded);
+	assert_true(equal > 0 && graded < 0.5 * equal);
 }
 
 /* On cells of 2.5 mm; those of 5 mm cut the thin toe short. Hydrostatic fronts need the small CFL. */
@@ -473,6 +505,7 @@ static const struct {
 	{{"domain.cells=555", "time.end=0.02", "erodible_bed_thickness=0", "domain.left=outflow",
 		 "slope=0 deg", "domain.right=wall"},
 		6},
+	{{"domain.cells=600", "time.end=0.02", "layer_fractions=[0.1, 0.2, 0.3, 0.4]"}, 3},
 	{{"domain.cells=600", "time.end=0.02", "layers=1"}, 3},
 	{{"domain.cells=600", "time.end=0.02", "layers=20",
 		 "pressure_solver.method=conjugate-gradients"},
@@ -717,6 +750,7 @@ int main(void)
 		cmocka_unit_test(the_energy_never_rises),
 		cmocka_unit_test(friction_takes_most_of_the_energy_that_is_lost),
 		cmocka_unit_test(the_front_runs_downhill_and_farther_on_a_steeper_slope),
+		cmocka_unit_test(layers_thin_at_the_bottom_are_nearer_to_many),
 		cmocka_unit_test(a_column_on_a_rigid_plane_comes_to_rest_beyond_0_3_m),
 		cmocka_unit_test(viscosity_updates_free_the_front_from_the_time_step),
 		cmocka_unit_test(a_bed_below_its_angle_of_repose_stays),
