@@ -121,14 +121,6 @@ static int read_options(int argc, char **argv, struct plot_options *options)
 	return 0;
 }
 
-static bool is_asked(const struct plot_options *options, const char *name)
-{
-	for (int i = 0; i < options->names.count; i++)
-		if (!strcmp(options->names.list[i], name))
-			return true;
-	return options->names.count == 0;
-}
-
 static int check_names(const struct plot_options *options, const struct experiment *experiment)
 {
 	if (!experiment->plot_count)
@@ -180,7 +172,7 @@ static int draw_experiment(const struct plot_options *options, const char *path)
 		code = command_fail(&err);
 	output.folder = options->folder ? options->folder : text_string(&folder);
 	for (size_t i = 0; !code && i < experiment.plot_count; i++)
-		if (is_asked(options, experiment.plots[i].name.text) &&
+		if (command_settings_choose(&options->names, experiment.plots[i].name.text) &&
 			plots_draw(&experiment, &experiment.plots[i], &output, &err))
 			code = command_fail(&err);
 	told = tell(&output);

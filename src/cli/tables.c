@@ -131,14 +131,6 @@ static int read_options(int argc, char **argv, struct tables_options *options)
 	return 0;
 }
 
-static bool is_asked(const struct tables_options *options, const char *name)
-{
-	for (int i = 0; i < options->names.count; i++)
-		if (!strcmp(options->names.list[i], name))
-			return true;
-	return options->names.count == 0;
-}
-
 /* Every name of --table is a table of the experiment, and the format can hold them all. */
 static int check_names(const struct tables_options *options, const struct experiment *experiment)
 {
@@ -157,7 +149,7 @@ static int check_names(const struct tables_options *options, const struct experi
 				"tables", "%s has no table '%s'", experiment->path, options->names.list[i]);
 	}
 	for (size_t i = 0; i < experiment->table_count; i++)
-		asked += is_asked(options, experiment->tables[i].name.text);
+		asked += command_settings_choose(&options->names, experiment->tables[i].name.text);
 	if (options->format->single && asked > 1)
 		return command_usage("tables",
 			"--format %s holds one table and %s has %zu; choose with --table",
@@ -226,7 +218,7 @@ static int print_tables(const struct tables_options *options)
 	else
 		code = check_names(options, &experiment);
 	for (size_t i = 0; !code && i < experiment.table_count; i++) {
-		if (!is_asked(options, experiment.tables[i].name.text))
+		if (!command_settings_choose(&options->names, experiment.tables[i].name.text))
 			continue;
 		code = print_one(options, &experiment, &experiment.tables[i], first);
 		first = false;

@@ -1,15 +1,7 @@
 /* Experiment files: what runs they ask for, what those are called, and what is refused. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include <cmocka.h>
+#include "../base/folder.h"
 
 #include "talus/experiment.h"
 
@@ -19,35 +11,13 @@ static const char base[] = "slope: 22 deg\n"
 						   "domain: {x_min: -0.2 m, x_max: 1.4 m, cells: 160}\n"
 						   "time: {end: 0.3 s, cfl: 0.5}\n";
 
-static void write_file(const char *name, const char *text)
+/* With base.yaml in it. */
+static int enter_study(void **state)
 {
-	FILE *file = fopen(name, "w");
-
-	assert_non_null(file);
-	assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
-	assert_int_equal(fclose(file), 0);
-}
-
-static int enter_folder(void **state)
-{
-	char name[] = "/tmp/talus-test-XXXXXX";
-
-	if (!mkdtemp(name) || chdir(name))
+	if (enter_folder(state))
 		return -1;
-	*state = strdup(name);
 	write_file("base.yaml", base);
 	return 0;
-}
-
-static int leave_folder(void **state)
-{
-	char command[256];
-	int result;
-
-	(void)snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
-	result = chdir("/") || system(command); /* NOLINT(cert-env33-c): a folder of our own */
-	free(*state);
-	return result;
 }
 
 /* The experiment of this text on top of base.yaml. */
@@ -567,7 +537,7 @@ static void an_error_of_the_base_is_cited_there(void **state)
 	assert_refused("base: base.yaml\n", "base.yaml:3:9: layers: many is not a whole number");
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, enter_folder, leave_folder)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, enter_study, leave_folder)
 
 int main(void)
 {

@@ -1,15 +1,7 @@
 /* Tables from run files made by hand: values, repeats, blanks, what is missing, formats, refusals. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
-#include <cmocka.h>
+#include "../base/folder.h"
 
 #include "base/file.h"
 #include "run/image.h"
@@ -23,35 +15,13 @@ static const char base[] = "slope: 22 deg\n"
 						   "time: {end: 0.3 s, cfl: 0.5}\n"
 						   "output: {profiles_at: [0.1 s, 0.3 s]}\n";
 
-static void write_file(const char *name, const char *text)
+/* With base.yaml in it. */
+static int enter_study(void **state)
 {
-	FILE *file = fopen(name, "w");
-
-	assert_non_null(file);
-	assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
-	assert_int_equal(fclose(file), 0);
-}
-
-static int enter_folder(void **state)
-{
-	char name[] = "/tmp/talus-test-XXXXXX";
-
-	if (!mkdtemp(name) || chdir(name))
+	if (enter_folder(state))
 		return -1;
-	*state = strdup(name);
 	write_file("base.yaml", base);
 	return 0;
-}
-
-static int leave_folder(void **state)
-{
-	char command[256];
-	int result;
-
-	(void)snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
-	result = chdir("/") || system(command); /* NOLINT(cert-env33-c): a folder of our own */
-	free(*state);
-	return result;
 }
 
 static struct experiment read_experiment(const char *text)
@@ -835,7 +805,7 @@ static void only_chooses_runs_by_value_however_written(void **state)
 	experiment_clean(&e);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, enter_folder, leave_folder)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, enter_study, leave_folder)
 
 int main(void)
 {
