@@ -30,24 +30,18 @@ int metric_stopping_time(const struct sample *sample, double *out, struct error 
 {
 	struct dataset time = {0}, speed = {0};
 	size_t i;
-	int result = -1;
 
-	if (metric_read(sample->file, "time", &time, err) ||
-		metric_read(sample->file, sample->metric->dataset, &speed, err))
-		goto done;
+	TRY(metric_read_series(sample->file, sample->metric->dataset, &time, &speed, err));
 	i = metric_count(&speed);
 	while (i > 0 && fabs(speed.values[i - 1]) < sample->config->output.static_speed)
 		i--;
-	if (i == metric_count(&speed)) {
-		error_set(err, EX_DATAERR, "it still flows at the end");
-		goto done;
-	}
-	*out = i < metric_count(&time) ? time.values[i] : NAN;
-	result = 0;
-done:
+	if (i < metric_count(&speed))
+		*out = time.values[i];
+	else
+		(void)error_set(err, EX_DATAERR, "it still flows at the end");
 	free(time.values);
 	free(speed.values);
-	return result;
+	return err->code ? -1 : 0;
 }
 
 /* The first and the greatest velocity of the front, and when it has that. At the release it jumps to the
@@ -57,24 +51,19 @@ static int front_peak(
 {
 	const double settled = 0.04; /* s: the window of 0.02 s has left the release behind */
 	struct dataset time = {0}, front = {0};
-	int result = -1;
 
 	*first = *velocity = *when = NAN;
-	if (metric_read(sample->file, "time", &time, err) ||
-		metric_read(sample->file, "front_velocity", &front, err))
-		goto done;
-	for (size_t i = 0; i < metric_count(&front) && i < metric_count(&time); i++)
+	TRY(metric_read_series(sample->file, "front_velocity", &time, &front, err));
+	for (size_t i = 0; i < metric_count(&front); i++)
 		if (time.values[i] >= settled && !(front.values[i] <= *velocity)) {
 			if (isnan(*first))
 				*first = front.values[i];
 			*velocity = front.values[i];
 			*when = time.values[i];
 		}
-	result = 0;
-done:
 	free(time.values);
 	free(front.values);
-	return result;
+	return 0;
 }
 
 int metric_front_velocity(const struct sample *sample, double *out, struct error *err)

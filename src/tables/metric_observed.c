@@ -79,12 +79,9 @@ int metric_front_observed(const struct sample *sample, double *out, struct error
 	int result = -1;
 
 	if (!observed_line(sample->observed, "front_position", 0, &line, err) &&
-		!metric_read(sample->file, "time", &time, err) &&
-		!metric_read(sample->file, "front_position", &front, err))
-		result = metric_count(&time) == metric_count(&front)
-					 ? distance(&line, time.values, front.values, metric_count(&time), 0,
-						   sample->config->initial.front, out, err)
-					 : error_set(err, EX_DATAERR, "'front_position' is not as long as 'time'");
+		!metric_read_series(sample->file, "front_position", &time, &front, err))
+		result = distance(&line, time.values, front.values, metric_count(&time), 0,
+			sample->config->initial.front, out, err);
 	observed_line_clean(&line);
 	free(time.values);
 	free(front.values);

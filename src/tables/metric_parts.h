@@ -62,7 +62,9 @@ int metric_turn_thickness(
 	const struct sample *sample, double **h, size_t *cells, struct error *err);
 int metric_front_difference(const struct sample *sample, double *out, struct error *err);
 
-/* metric_series.c: numbers of a series. */
+/* metric_series.c: a series and its times, as many, all the caller's; and numbers of a series. */
+int metric_read_series(struct run_file *file, const char *name, struct dataset *times,
+	struct dataset *values, struct error *err);
 int metric_series_last(const struct sample *sample, double *out, struct error *err);
 int metric_series_greatest(const struct sample *sample, double *out, struct error *err);
 int metric_series_least(const struct sample *sample, double *out, struct error *err);
