@@ -297,10 +297,10 @@ distclean: clean
 ## help: this list
 help:
 	@sed -n 's/^## \([a-z0-9-]*\): /\1\t/p' $(firstword $(MAKEFILE_LIST)) | \
-		awk -F '\t' '{ printf "  %-14s %s\n", $$1, $$2 }'
+		awk -F '\t' '{ printf "  %-20s %s\n", $$1, $$2 }'
 	@echo; echo "An experiment runs by its name, which finishes what is not finished, prints its tables and draws its plots:"
 	@for name in $(EXPERIMENTS); do \
-		printf '  %-14s %s\n' $$name "$$(sed -n 's/^title: *//p' experiments/$$name.yaml)"; done
+		printf '  %-20s %s\n' $$name "$$(sed -n 's/^title: *//p' experiments/$$name.yaml)"; done
 	@echo; echo "Variables: V=1 shows commands, CC, CFLAGS, OPT, BUILD, BIN, LIB, PREFIX, JOBS, CAMPAIGN_FLAGS"
 
 -include $(OBJECTS:.o=.d) $(TEST_PROGRAMS:=.d) $(BENCHES:=.d)

@@ -28,6 +28,9 @@ int error_set(struct error *err, int code, const char *format, ...)
 int error_at(struct error *err, int code, const char *file, int line, int column,
 	const char *format, ...) __attribute__((format(printf, 6, 7)));
 
+/* Give an error of data that has no place yet this one. Return -1. */
+int error_place(struct error *err, const char *file, int line, int column);
+
 /* Put "context: " before the text of an error that is set. Return -1. */
 int error_context(struct error *err, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

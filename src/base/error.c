@@ -12,6 +12,13 @@ static void set(struct error *err, int code, const char *format, va_list args)
 	(void)vsnprintf(err->text, sizeof err->text, format, args);
 }
 
+static void set_place(struct error *err, const char *file, int line, int column)
+{
+	(void)snprintf(err->file, sizeof err->file, "%s", file);
+	err->line = line;
+	err->column = column;
+}
+
 int error_set(struct error *err, int code, const char *format, ...)
 {
 	va_list args;
@@ -34,9 +41,15 @@ int error_at(
 	va_start(args, format);
 	set(err, code, format, args);
 	va_end(args);
-	(void)snprintf(err->file, sizeof err->file, "%s", file);
-	err->line = line;
-	err->column = column;
+	set_place(err, file, line, column);
+	return -1;
+}
+
+int error_place(struct error *err, const char *file, int line, int column)
+{
+	if (err->code != EX_DATAERR || err->file[0])
+		return -1;
+	set_place(err, file, line, column);
 	return -1;
 }
 

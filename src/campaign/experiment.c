@@ -222,8 +222,8 @@ static const struct reader_key form_keys[] = {
 	{"base", read_base, "path of the config that all runs share, relative to this file; required"},
 	{"set", read_set, "config keys and values for all runs, before those of `runs`"},
 	{"runs", read_runs,
-		"a list of entries, each the product of its axes; a run that two entries ask for is one "
-		"(default: one run of the base)"},
+		"a list of entries, each the product of its axes; "
+		"a run that two entries ask for is one (default: one run of the base)"},
 	{"repeat", read_repeat, "how often each run is run, 1 to 1000 (default: 1)"},
 	{"timing", read_timing,
 		"true: one run at a time and in the order of the file, for CPU times (default: false)"},
@@ -239,9 +239,7 @@ void experiment_reference(struct text *out)
 {
 	static const struct reader_key axes[] = {
 		{"KEY", NULL,
-			"a config key with a value, a list of values, or a range; a value that is a list "
-			"stands "
-			"in a list"},
+			"a config key with a value, a list of values, or a range; a value that is a list stands in a list"},
 		{"zip", NULL, "config keys whose lists or ranges, of one length, go in step: one axis"},
 		{"sample", NULL, "a design that draws the ranges without `steps` of this entry: one axis"},
 	};

@@ -28,8 +28,8 @@ static int read_seed(const struct reader *reader, const struct node *node, void 
 
 const struct reader_key sample_keys[SAMPLE_KEYS] = {
 	{"method", read_method,
-		"latin-hypercube: each of `points` equal parts of a range has one point; sobol: a sequence "
-		"that goes on with more points (default: latin-hypercube)"},
+		"latin-hypercube: each of `points` equal parts of a range has one point; "
+		"sobol: a sequence that goes on with more points (default: latin-hypercube)"},
 	{"points", read_points, "how many; required"},
 	{"seed", read_seed, "another whole number above 0, other points (default: 1)"},
 };

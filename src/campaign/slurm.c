@@ -13,11 +13,8 @@
 #include "base/digest.h"
 #include "base/file.h"
 #include "base/lock.h"
-#include "base/process.h"
 #include "campaign/order.h"
 #include "campaign/task.h"
-
-enum { ARRAY_SIZE_DEFAULT = 1001 }; /* Slurm's own */
 
 /* A task to submit. */
 struct item {
@@ -85,7 +82,7 @@ static int submission_init(
 	const char *program = campaign->options.program ? campaign->options.program : "/proc/self/exe";
 	char shown[256];
 
-	*submission = (struct submission){.campaign = campaign, .array_size = ARRAY_SIZE_DEFAULT};
+	*submission = (struct submission){.campaign = campaign, .array_size = SLURM_ARRAY_SIZE};
 	submission->throttle = experiment->timing     ? 1
 						   : campaign->jobs_asked ? campaign->jobs_asked
 												  : experiment->slurm.throttle;
@@ -202,26 +199,6 @@ static int choose_tasks(
 	return 0;
 }
 
-/* MaxArraySize of the cluster: the greatest index is one less. */
-static int ask_array_size(struct submission *submission, struct error *err)
-{
-	static const char *const scontrol[] = {"scontrol", "show", "config", NULL};
-	static const char key[] = "\nMaxArraySize";
-	struct text out = {0};
-	const char *line;
-	int result = process_run(scontrol, SLURM_PATIENCE, &out, err);
-
-	if (result == 0) {
-		line = strstr(text_string(&out), key);
-		line = line ? strchr(line, '=') : NULL;
-		submission->array_size = line ? strtoul(line + 1, NULL, 10) : ARRAY_SIZE_DEFAULT;
-		if (!submission->array_size)
-			result = error_set(err, EX_UNAVAILABLE, "this cluster has no job arrays");
-	}
-	text_clean(&out);
-	return result;
-}
-
 /* The folder of the run that a task goes on from, if it has none of its own; NULL: it starts at 0. */
 static const char *find_from(const struct campaign *campaign, const struct task *task)
 {
@@ -314,24 +291,6 @@ static struct slurm_array make_array(struct submission *submission, size_t first
 	return array;
 }
 
-static int write_file(const struct submission *submission, const char *name, const char *ending,
-	const struct text *text, struct error *err)
-{
-	struct text folder = {0}, full = {0};
-	int result = -1;
-
-	text_addf(&full, "%s%s", name, ending);
-	if (text->failed || full.failed)
-		error_memory(err, text->capacity);
-	else if (!file_path(&folder, submission->folder, SLURM_FOLDER, err))
-		result = file_replace(
-			&(struct file_place){.folder = folder.data, .name = full.data, .durable = true},
-			&(struct file_part){text->data, text->length}, 1, err);
-	text_clean(&folder);
-	text_clean(&full);
-	return result;
-}
-
 /* What the script tells `talus run` beside the config; a task that comes back from the queue is told it
  * again, when its run has a file and is not failed, and neither means anything. */
 static void add_run(const struct campaign *campaign, const struct task *task, struct text *runs)
@@ -344,61 +303,6 @@ static void add_run(const struct campaign *campaign, const struct task *task, st
 	if (from)
 		text_addf(runs, "\t--continue-from\t./%s", slurm_run_name(from));
 	text_add(runs, "\n");
-}
-
-static int write_array(
-	const struct submission *submission, const struct slurm_array *array, struct error *err)
-{
-	struct text runs = {0}, script = {0};
-	int result;
-
-	for (size_t i = 0; i < array->count; i++)
-		add_run(submission->campaign, submission->items[array->first + i].task, &runs);
-	slurm_script_write(array, &script);
-	result = write_file(submission, array->name, ".runs", &runs, err);
-	if (result == 0)
-		result = write_file(submission, array->name, ".sh", &script, err);
-	text_clean(&runs);
-	text_clean(&script);
-	return result;
-}
-
-/* By the arguments go what paths could break in a directive, what differs from one submission to the
- * next, and what a variable of the user's environment must not change. */
-static int call_sbatch(const struct submission *submission, const struct slurm_array *array,
-	char job[static 16], struct error *err)
-{
-	struct text chdir = {0}, name = {0}, range = {0}, after = {0}, script = {0}, out = {0};
-	const char *sbatch[8] = {"sbatch", "--parsable"};
-	int result = -1;
-
-	text_addf(&chdir, "--chdir=%s", submission->folder);
-	text_addf(&name, "--job-name=%s", array->name);
-	text_add(&range, "--array=");
-	slurm_script_range(array, &range);
-	text_addf(&after, "--dependency=afterany%s", text_string(&submission->after));
-	text_addf(&script, "%s/" SLURM_FOLDER "/%s.sh", submission->folder, array->name);
-	if (chdir.failed || name.failed || range.failed || after.failed || script.failed ||
-		submission->after.failed) {
-		error_memory(err, PATH_MAX);
-		goto done;
-	}
-	sbatch[2] = chdir.data;
-	sbatch[3] = name.data;
-	sbatch[4] = range.data;
-	sbatch[5] = submission->after.length ? after.data : script.data;
-	sbatch[6] = submission->after.length ? script.data : NULL;
-	result = process_run(sbatch, SLURM_PATIENCE, &out, err);
-	if (result == 0 && sscanf(text_string(&out), "%15[0-9]", job) != 1)
-		result = error_set(err, EX_UNAVAILABLE, "sbatch did not tell the number of the job");
-done:
-	text_clean(&chdir);
-	text_clean(&name);
-	text_clean(&range);
-	text_clean(&after);
-	text_clean(&script);
-	text_clean(&out);
-	return result;
 }
 
 /* What the tasks of an array go on from comes to its end before it: the arrays of one depth less, and
@@ -423,11 +327,16 @@ static void wait_for_chains(struct submission *submission, const struct slurm_ar
 static int submit_array(struct submission *submission, size_t *first, struct error *err)
 {
 	const struct slurm_array array = make_array(submission, *first);
-	char job[16];
+	struct text runs = {0};
+	char job[SLURM_JOB_SIZE];
+	int result;
 
-	TRY(write_array(submission, &array, err));
+	for (size_t i = 0; i < array.count; i++)
+		add_run(submission->campaign, submission->items[*first + i].task, &runs);
 	wait_for_chains(submission, &array);
-	TRY(call_sbatch(submission, &array, job, err));
+	result = slurm_submit(&array, &runs, &submission->after, job, err);
+	text_clean(&runs);
+	TRY(result);
 	for (size_t i = 0; i < array.count; i++)
 		submission->items[*first + i].task->state = TASK_QUEUED;
 	if (submission->throttle) /* which is one array's: the next one begins after it */
@@ -443,7 +352,7 @@ static int submit_all(struct submission *submission, struct error *err)
 {
 	if (!submission->count)
 		return 0;
-	TRY(ask_array_size(submission, err));
+	TRY(slurm_array_size(&submission->array_size, err));
 	TRY(prepare_tasks(submission, err));
 	for (size_t first = 0; first < submission->count;)
 		TRY(submit_array(submission, &first, err));
@@ -468,23 +377,13 @@ static int submit(struct submission *submission, struct error *err)
 	return result;
 }
 
-static int check_slurm(struct error *err)
-{
-	static const char *const version[] = {"sbatch", "--version", NULL};
-	struct text ignored = {0};
-	int result = process_run(version, SLURM_PATIENCE, &ignored, err);
-
-	text_clean(&ignored);
-	return result ? error_context(err, "--executor slurm") : 0;
-}
-
 int slurm_execute(struct campaign *campaign, struct error *err)
 {
 	struct submission submission = {0};
 	struct lock lock = {-1};
 	int result = -1;
 
-	if (!check_slurm(err) && !submission_init(&submission, campaign, err) &&
+	if (!slurm_check(err) && !submission_init(&submission, campaign, err) &&
 		!slurm_lock(campaign->experiment, &lock, err))
 		result = submit(&submission, err);
 	lock_release(&lock);
@@ -521,7 +420,7 @@ int slurm_plan(struct campaign *campaign, struct text *out, struct error *err)
 	}
 	if (submission_init(&submission, campaign, err))
 		goto done;
-	if (check_slurm(&silence) || ask_array_size(&submission, &silence) ||
+	if (slurm_check(&silence) || slurm_array_size(&submission.array_size, &silence) ||
 		slurm_queue(campaign->experiment, entries, &silence))
 		tell(&submission, "%s; an empty queue and arrays of %zu tasks are assumed", silence.text,
 			submission.array_size);

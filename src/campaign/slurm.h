@@ -1,9 +1,10 @@
 /* The executor of clusters that run Slurm: the runs become the tasks of job arrays.
  *
  * What lies in <folder of the run folders>/slurm: per array NAME.sh, the batch script; NAME.runs, a
- * line for each task: the folder of its run, and after tabs what more `talus run` is told; NAME.log, what Slurm says of its tasks. NAME is the name of
- * the job as well, so that the queue alone tells which tasks it holds: nothing is recorded after the
- * submission that a crash could lose, and no accounting is asked. */
+ * line for each task: the folder of its run, and after tabs what more `talus run` is told; NAME.log,
+ * what Slurm says of its tasks. NAME is the name of the job as well, so that the queue alone tells
+ * which tasks it holds: nothing is recorded after the submission that a crash could lose, and no
+ * accounting is asked. */
 #ifndef TALUS_SLURM_H
 #define TALUS_SLURM_H
 
@@ -13,9 +14,11 @@
 #define SLURM_FOLDER "slurm"
 
 enum {
-	SLURM_GRACE = 60,     /* s */
-	SLURM_NAME_SIZE = 64, /* of the name of a job */
-	SLURM_PATIENCE = 60,  /* for an answer of Slurm's commands, s */
+	SLURM_GRACE = 60,        /* s */
+	SLURM_NAME_SIZE = 64,    /* of the name of a job */
+	SLURM_PATIENCE = 60,     /* for an answer of Slurm's commands, s */
+	SLURM_ARRAY_SIZE = 1001, /* tasks in an array at most, where the cluster does not say */
+	SLURM_JOB_SIZE = 16,
 	SLURM_KEYS = 6
 };
 
@@ -38,6 +41,17 @@ struct slurm_array {
 /* "0-99%20", for --array. */
 void slurm_script_range(const struct slurm_array *array, struct text *out);
 void slurm_script_write(const struct slurm_array *array, struct text *out);
+
+/* Is Slurm there? EX_UNAVAILABLE. */
+int slurm_check(struct error *err);
+
+/* How many tasks the cluster lets an array have. */
+int slurm_array_size(size_t *size, struct error *err);
+
+/* Write the script of an array and its list of runs, and submit it, to begin when the arrays `after`
+ * (":12:13", empty: none) have ended. `job` is its number. EX_CANTCREAT, EX_IOERR, EX_UNAVAILABLE. */
+int slurm_submit(const struct slurm_array *array, const struct text *runs, const struct text *after,
+	char job[static SLURM_JOB_SIZE], struct error *err);
 
 /* The folder of a run as the lists of runs name it. */
 const char *slurm_run_name(const char *folder);

@@ -188,8 +188,8 @@ static int read_directives(const struct reader *reader, const struct node *node,
 const struct reader_key slurm_keys[SLURM_KEYS] = {
 	{"partition", read_partition, "partition that the tasks go to (default: that of the cluster)"},
 	{"time", read_time,
-		"limit of a task, as `2 h` or as Slurm writes it: \"2:00:00\", \"1-12\" (default: that of "
-		"the cluster)"},
+		"limit of a task, as `2 h` or as Slurm writes it: \"2:00:00\", \"1-12\" "
+		"(default: that of the cluster)"},
 	{"grace", read_grace,
 		"so long before the limit a run is asked to write its checkpoint and stop (default: 60 s)"},
 	{"memory", read_memory, "memory of a task, such as 2 GB (default: that of the cluster)"},

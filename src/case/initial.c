@@ -214,9 +214,8 @@ static int check_ends(const struct config *config, const struct grid *grid, stru
 	if (fabs(left - right) <= 1e-9 * fmax(1, fabs(left)))
 		return 0;
 	return error_set(err, EX_DATAERR,
-		"topography: periodic ends need one bed at both, and it is %g m at the left end and %g m "
-		"at the "
-		"right one",
+		"topography: periodic ends need one bed at both, "
+		"and it is %g m at the left end and %g m at the right one",
 		left, right);
 }
 

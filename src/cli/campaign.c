@@ -24,16 +24,18 @@ static void print_help(const struct campaign_action *action, struct text *out)
 			action->usage, action->help);
 		return;
 	}
-	text_add(out, "Run an experiment: every run in a process of its own, resumed where it was "
-				  "stopped.\n\nusage: talus campaign ACTION [OPTION]... EXPERIMENT\n"
-				  "example: talus campaign run -j 2 experiments/quickstart.yaml\n\nactions:\n");
+	text_add(out,
+		"Run an experiment: every run in a process of its own, resumed where it was stopped.\n\n"
+		"usage: talus campaign ACTION [OPTION]... EXPERIMENT\n"
+		"example: talus campaign run -j 2 experiments/quickstart.yaml\n\n"
+		"actions:\n");
 	for (size_t i = 0; actions[i]; i++)
 		text_addf(out, "  %-8s %s\n", actions[i]->name, actions[i]->summary);
 	text_add(out,
-		"\n`talus campaign ACTION --help` has the options; `talus tables --reference` the "
-		"keys of\nan experiment.\n\n"
-		"exit: 0 done, 1 a run failed, 64 wrong usage, 65 bad experiment, 75 stopped and "
-		"resumable\n");
+		"\n"
+		"`talus campaign ACTION --help` has the options; `talus tables --reference` the keys of\n"
+		"an experiment.\n\n"
+		"exit: 0 done, 1 a run failed, 64 wrong usage, 65 bad experiment, 75 stopped and resumable\n");
 }
 
 static const char common[] = ":s:o:h"; /* ':' first: see command_option_error */

@@ -122,9 +122,9 @@ const struct campaign_action campaign_action_cancel = {
 	.usage = "[OPTION]... EXPERIMENT",
 	.help =
 		"example: talus campaign cancel experiments/quickstart.yaml\n\n"
-		"Reaches all `talus campaign run` in the folder, on whatever machine, and waits a minute "
-		"for\ntheir runs. Runs in the queue of Slurm are taken back from there. A run that "
-		"somebody started\nwith `talus run` is named and left.\n\n"
+		"Reaches all `talus campaign run` in the folder, on whatever machine, and waits a minute for\n"
+		"their runs. Runs in the queue of Slurm are taken back from there. A run that somebody started\n"
+		"with `talus run` is named and left.\n\n"
 		"options:\n" CAMPAIGN_OPTIONS_OF_ALL
 		"exit: 0 nothing runs any more, 65 bad experiment, 69 Slurm does not answer,\n"
 		"73 the folder cannot be written, 75 something still runs\n",

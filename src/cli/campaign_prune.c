@@ -126,14 +126,13 @@ const struct campaign_action campaign_action_prune = {
 	.usage = "[OPTION]... EXPERIMENT [EXPERIMENT]...",
 	.help =
 		"example: talus campaign prune experiments/quickstart.yaml\n\n"
-		"Only run folders are touched: their name ends with the hash of the config in them, and "
-		"they\nhold nothing but the files of a run. Further experiments are those that share the "
-		"folder.\nA run that another one goes on from is kept until that is complete.\n\n"
+		"Only run folders are touched: their name ends with the hash of the config in them, and they\n"
+		"hold nothing but the files of a run. Further experiments are those that share the folder.\n"
+		"A run that another one goes on from is kept until that is complete.\n\n"
 		"options:\n"
 		"  -y, --yes             remove without asking (default: ask; show only, where nobody can\n"
 		"                        be asked)\n" CAMPAIGN_OPTIONS_OF_ALL
-		"exit: 0 done, or nothing was to be done, 65 bad experiment, 74 something cannot be "
-		"removed\n",
+		"exit: 0 done, or nothing was to be done, 65 bad experiment, 74 something cannot be removed\n",
 	.options = "y",
 	.names = true,
 	.main = prune_main,

@@ -373,9 +373,8 @@ const struct campaign_action campaign_action_run = {
 		"  -r, --retry N         start a run that fails, crashes or times out anew, until it has\n"
 		"                        failed N times and once more; why each attempt ended stays in\n"
 		"                        status.yaml (default: 0)\n" CAMPAIGN_OPTIONS_OF_ALL
-		"Ctrl-C stops all runs with their checkpoints written; the same command goes on from "
-		"there.\nA run that differs from another by a later time.end alone goes on from that "
-		"one.\n\n"
+		"Ctrl-C stops all runs with their checkpoints written; the same command goes on from there.\n"
+		"A run that differs from another by a later time.end alone goes on from that one.\n\n"
 		"exit: 0 all runs are complete or in the queue, 1 one failed, 65 bad experiment,\n"
 		"69 Slurm is not there or refuses, 75 stopped and resumable\n",
 	.options = "jnrtmeO",
@@ -389,8 +388,8 @@ const struct campaign_action campaign_action_retry = {
 	.help =
 		"example: talus campaign retry experiments/quickstart.yaml\n\n"
 		"RUN is a name as `status` prints it, the beginning of one, or digits of its hash.\n\n"
-		"options:\n" OPTIONS_OF_POOL "  -r, --retry N         start each anew up to N times "
-		"(default: 1)\n" CAMPAIGN_OPTIONS_OF_ALL
+		"options:\n" OPTIONS_OF_POOL
+		"  -r, --retry N         start each anew up to N times (default: 1)\n" CAMPAIGN_OPTIONS_OF_ALL
 		"exit: 0 these runs are complete or in the queue, 1 one failed again, 65 bad\n"
 		"experiment or no such run, 69 Slurm is not there or refuses, 75 stopped and resumable\n",
 	.options = "jnrtmeO",

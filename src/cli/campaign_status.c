@@ -270,9 +270,8 @@ const struct campaign_action campaign_action_status = {
 	.usage = "[OPTION]... EXPERIMENT",
 	.help =
 		"example: talus campaign status experiments/quickstart.yaml\n\n"
-		"On a terminal the table fits the screen, and runs that need attention come before those "
-		"that\nare complete. A run in the queue of a cluster has its state there beside its "
-		"own.\n\n"
+		"On a terminal the table fits the screen, and runs that need attention come before those that\n"
+		"are complete. A run in the queue of a cluster has its state there beside its own.\n\n"
 		"options:\n"
 		"  -a, --all             every run, also where the screen is too small (default: off)\n"
 		"      --json            print JSON (default: a table)\n" CAMPAIGN_OPTIONS_OF_ALL

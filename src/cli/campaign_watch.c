@@ -213,8 +213,8 @@ const struct campaign_action campaign_action_watch = {
 	.usage = "[OPTION]... EXPERIMENT",
 	.help =
 		"example: talus campaign watch experiments/quickstart.yaml\n\n"
-		"A table that is drawn again and again; where the output is no terminal, a line for every "
-		"run\nthat changes its state. It only looks: Ctrl-C ends the looking, not the runs.\n\n"
+		"A table that is drawn again and again; where the output is no terminal, a line for every run\n"
+		"that changes its state. It only looks: Ctrl-C ends the looking, not the runs.\n\n"
 		"options:\n"
 		"  -i, --interval SPAN   time between two looks (default: 1 s)\n" CAMPAIGN_OPTIONS_OF_ALL
 		"exit: 0 all runs are complete, 1 one failed, 65 bad experiment\n",

@@ -121,8 +121,7 @@ static void add_mismatch(const struct experiment_run *run, struct text *out)
 	if (run_file_real(file, "numerics_version", &version, &ignored) == 0 &&
 		version != model_find(&run->config)->numerics_version)
 		text_addf(out,
-			"  its run file was made with numerics_version %g, and this program has %d: it is "
-			"refused\n",
+			"  its run file was made with numerics_version %g, and this program has %d: it is refused\n",
 			version, model_find(&run->config)->numerics_version);
 done:
 	out->failed |= warning.failed || keys.failed || ignored.code == EX_SOFTWARE;
@@ -291,12 +290,11 @@ const struct campaign_action campaign_action_why = {
 	.usage = "[OPTION]... EXPERIMENT [RUN]...",
 	.help =
 		"example: talus campaign why experiments/quickstart.yaml\n\n"
-		"RUN is a name as `status` prints it, the beginning of one, its folder, or digits of its "
-		"hash;\nwithout it, all runs that are not complete. A run that nobody has begun is "
-		"compared with those\nthat are there, key by key.\n\n"
+		"RUN is a name as `status` prints it, the beginning of one, its folder, or digits of its hash;\n"
+		"without it, all runs that are not complete. A run that nobody has begun is compared with those\n"
+		"that are there, key by key.\n\n"
 		"options:\n"
-		"  -r, --retry N         as it would be given to `run` (default: "
-		"0)\n" CAMPAIGN_OPTIONS_OF_ALL
+		"  -r, --retry N         as it would be given to `run` (default: 0)\n" CAMPAIGN_OPTIONS_OF_ALL
 		"exit: 0 whatever the states are, 65 bad experiment or no such run\n",
 	.options = "r",
 	.names = true,

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "config/yaml.h"
+#include "run/run_file_parts.h"
 
 int command_fail(const struct error *err)
 {
@@ -75,6 +76,27 @@ void command_settings_clean(struct command_settings *settings)
 {
 	free(settings->list);
 	*settings = (struct command_settings){0};
+}
+
+bool command_settings_choose(const struct command_settings *settings, const char *text)
+{
+	for (int i = 0; i < settings->count; i++)
+		if (!strcmp(settings->list[i], text))
+			return true;
+	return settings->count == 0;
+}
+
+int command_open_run(const char *path, struct run_file **file, struct error *err)
+{
+	struct text warning = {0};
+	int result = run_file_open_any(path, file, &warning, err);
+
+	if (result == 0 && warning.length)
+		(void)fprintf(stderr, "talus: warning: %s\n", text_string(&warning));
+	text_clean(&warning);
+	if (err->code == EX_NOINPUT)
+		err->code = EX_DATAERR;
+	return result;
 }
 
 int command_flush(int code)

@@ -2,6 +2,8 @@
 #ifndef TALUS_COMMAND_H
 #define TALUS_COMMAND_H
 
+#include <stdbool.h>
+
 #include "talus/error.h"
 #include "talus/text.h"
 
@@ -34,6 +36,13 @@ struct command_settings {
 /* Add one; EX_SOFTWARE out of memory. `list` is freed by command_settings_clean. */
 int command_settings_add(struct command_settings *settings, const char *text, struct error *err);
 void command_settings_clean(struct command_settings *settings);
+
+/* Is the text among them? Of names to choose from none means all. */
+bool command_settings_choose(const struct command_settings *settings, const char *text);
+
+/* Open a run folder or run file for a command, with its warning on stderr. EX_DATAERR, EX_SOFTWARE. */
+struct run_file;
+int command_open_run(const char *path, struct run_file **file, struct error *err);
 
 /* The exit code of a command that ended with `code` once what it printed is out: EX_IOERR after a message
  * where that fails and nothing else did. */

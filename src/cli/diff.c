@@ -1,6 +1,5 @@
 /* talus diff: do two runs hold the same bits? */
 #include <getopt.h>
-#include <stdio.h>
 
 #include "cli/command.h"
 #include "cli/commands.h"
@@ -42,17 +41,6 @@ static int read_options(int argc, char **argv, struct diff_options *options)
 	return 0;
 }
 
-static int open_run(const char *path, struct run_file **file, struct error *err)
-{
-	struct text warning = {0};
-	int result = run_file_open_any(path, file, &warning, err);
-
-	if (result == 0 && warning.length)
-		(void)fprintf(stderr, "talus: warning: %s\n", text_string(&warning));
-	text_clean(&warning);
-	return result;
-}
-
 static int compare(const char *a, const char *b, bool quiet)
 {
 	struct run_file *first = NULL, *second = NULL;
@@ -60,12 +48,10 @@ static int compare(const char *a, const char *b, bool quiet)
 	struct text out = {0};
 	int code;
 
-	if (open_run(a, &first, &err) == 0 && open_run(b, &second, &err) == 0)
+	if (command_open_run(a, &first, &err) == 0 && command_open_run(b, &second, &err) == 0)
 		(void)compare_run_files(first, second, &out, &err);
 	run_file_close(first);
 	run_file_close(second);
-	if (err.code == EX_NOINPUT)
-		err.code = EX_DATAERR;
 	if (err.code)
 		code = command_fail(&err);
 	else if (!out.length || quiet)

@@ -1,7 +1,6 @@
 /* talus info: what is this run? */
 #include <getopt.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/clock.h"
@@ -142,20 +141,14 @@ static int add_summary(struct run_file *file, struct text *out, struct error *er
 
 static int tell(const char *path, bool config)
 {
-	struct text out = {0}, warning = {0};
+	struct text out = {0};
 	struct run_file *file = NULL;
 	struct error err = {0};
 	int code;
 
-	if (run_file_open_any(path, &file, &warning, &err) == 0) {
-		if (warning.length)
-			(void)fprintf(stderr, "talus: warning: %s\n", text_string(&warning));
+	if (command_open_run(path, &file, &err) == 0)
 		(void)(config ? run_file_text(file, "config", &out, &err) : add_summary(file, &out, &err));
-	}
 	run_file_close(file);
-	text_clean(&warning);
-	if (err.code == EX_NOINPUT)
-		err.code = EX_DATAERR;
 	code = err.code ? command_fail(&err) : command_print(&out);
 	text_clean(&out);
 	return code;

@@ -16,21 +16,18 @@ static const char help[] =
 	"usage: talus plot [OPTION]... RUN...\n"
 	"       talus plot [OPTION]... EXPERIMENT\n"
 	"example: talus plot results/granular-collapse\n\n"
-	"RUN is a run folder or a run file (.h5); several are drawn together. EXPERIMENT is a YAML "
-	"file.\n\n"
+	"RUN is a run folder or a run file (.h5); several are drawn together. EXPERIMENT is a YAML file.\n\n"
 	"options:\n"
 	"  -d, --dimensionless  of RUNs: lengths over h_0, times over tau_c, velocities over v_0 (P1)\n"
 	"                       (default: SI units)\n"
-	"  -f, --format NAMES   svg, png and pdf, those wanted with commas between (default: all "
-	"three)\n"
+	"  -f, --format NAMES   svg, png and pdf, those wanted with commas between (default: all three)\n"
 	"  -o, --output FOLDER  where the figures go (default: RUN/figures of the first run, or\n"
 	"                       results/<name of EXPERIMENT>/figures)\n"
 	"  -p, --plot NAME      only this figure of the experiment; repeatable (default: all)\n"
 	"  -r, --runs FOLDER    folder of the run folders (default: results/<name of EXPERIMENT>)\n"
 	"  -s, --set KEY=VALUE  as given to `talus campaign run`; repeatable (default: none)\n"
 	"  -h, --help           print this\n\n"
-	"exit: 0 the figures are whole, 1 something is missing in them (stderr names it), 65 bad run "
-	"or\n"
+	"exit: 0 the figures are whole, 1 something is missing in them (stderr names it), 65 bad run or\n"
 	"experiment, 69 gnuplot is missing, 73 and 74 the figures cannot be written\n";
 
 struct plot_options {
@@ -124,14 +121,6 @@ static int read_options(int argc, char **argv, struct plot_options *options)
 	return 0;
 }
 
-static bool is_asked(const struct plot_options *options, const char *name)
-{
-	for (int i = 0; i < options->names.count; i++)
-		if (!strcmp(options->names.list[i], name))
-			return true;
-	return options->names.count == 0;
-}
-
 static int check_names(const struct plot_options *options, const struct experiment *experiment)
 {
 	if (!experiment->plot_count)
@@ -183,7 +172,7 @@ static int draw_experiment(const struct plot_options *options, const char *path)
 		code = command_fail(&err);
 	output.folder = options->folder ? options->folder : text_string(&folder);
 	for (size_t i = 0; !code && i < experiment.plot_count; i++)
-		if (is_asked(options, experiment.plots[i].name.text) &&
+		if (command_settings_choose(&options->names, experiment.plots[i].name.text) &&
 			plots_draw(&experiment, &experiment.plots[i], &output, &err))
 			code = command_fail(&err);
 	told = tell(&output);

@@ -12,14 +12,12 @@
 #include "run/verify.h"
 
 static const char help[] =
-	"Check run files: their digest, times that grow, lengths that fit, mass that is conserved, "
-	"and\n"
+	"Check run files: their digest, times that grow, lengths that fit, mass that is conserved, and\n"
 	"that what campaigns go by is what the file says.\n\n"
 	"usage: talus verify PATH...\n"
 	"example: talus verify results/granular-collapse\n\n"
 	"PATH is a run file, a run folder, or a folder of run folders, as a campaign has it. Of a run\n"
-	"both generations are checked, run.h5 and run.previous.h5; it goes on from the newest that is "
-	"good.\n\n"
+	"both generations are checked, run.h5 and run.previous.h5; it goes on from the newest that is good.\n\n"
 	"options:\n"
 	"  -h, --help  print this\n\n"
 	"exit: 0 all are good, 65 one is damaged or is no run file\n";

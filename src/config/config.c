@@ -1,14 +1,12 @@
 #include "talus/config.h"
 
 #include <ctype.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
 
 #include "config/config_table.h"
-#include "config/quantity.h"
 
 /* One "key=value" and the name it has in messages. */
 struct setting {
@@ -68,240 +66,6 @@ static int collect_setting(
 	return status;
 }
 
-static int check_layers(
-	const struct config *config, const struct field_reader *reader, struct error *err)
-{
-	int n = config->n_ini_guess;
-
-	if (n >= config->layers)
-		(void)error_set(
-			err, EX_DATAERR, "n_ini_guess: %d is not below layers (%d)", n, config->layers);
-	else if (n > 0 && config->layers % n != 0)
-		(void)error_set(
-			err, EX_DATAERR, "n_ini_guess: %d does not divide layers (%d)", n, config->layers);
-	return err->code ? field_blame(reader, "n_ini_guess", "layers", -1, err) : 0;
-}
-
-/* Shapes that end at a gate. */
-static bool has_front(const struct config *config)
-{
-	int shape = config->initial.shape;
-
-	return shape == SHAPE_COLUMN || shape == SHAPE_TRIANGLE || shape == SHAPE_CAP ||
-		   config->gate.speed != 0;
-}
-
-/* Cells have to be told apart, by their places and by what differs between them. */
-static int check_cells(
-	const struct config *config, const struct field_reader *reader, struct error *err)
-{
-	double x_min = config->domain.x_min, x_max = config->domain.x_max;
-	double width = (x_max - x_min) / config->domain.cells;
-	double least = fmax(1e-9, 1e-12 * fmax(fabs(x_min), fabs(x_max)));
-	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
-
-	if (width >= least)
-		return 0;
-	(void)error_set(err, EX_DATAERR,
-		"domain: %d cells between x_min and x_max are %s m wide each; here they must be at least "
-		"%s m",
-		config->domain.cells, text_real(width, first), text_real(least, second));
-	return field_blame(reader, "domain.cells", "domain.x_max", -1, err);
-}
-
-static int check_domain(
-	const struct config *config, const struct field_reader *reader, struct error *err)
-{
-	double x_min = config->domain.x_min, x_max = config->domain.x_max;
-	double front = config->initial.front;
-	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
-
-	if (x_min >= x_max) {
-		(void)error_set(err, EX_DATAERR, "domain: x_min (%s m) is not below x_max (%s m)",
-			text_real(x_min, first), text_real(x_max, second));
-		return field_blame(reader, "domain.x_min", "domain.x_max", -1, err);
-	}
-	TRY(check_cells(config, reader, err));
-	if (!has_front(config) || (front >= x_min && front <= x_max))
-		return 0;
-	(void)error_set(err, EX_DATAERR, "initial.front: %s m is outside the domain, %s m is its %s",
-		text_real(front, first), text_real(front < x_min ? x_min : x_max, second),
-		front < x_min ? "x_min" : "x_max");
-	return field_blame(
-		reader, "initial.front", front < x_min ? "domain.x_min" : "domain.x_max", -1, err);
-}
-
-/* The rows of P1 (37) tie two faces at either end: fewer cells have no row of their own left. */
-static int check_operator(
-	const struct config *config, const struct field_reader *reader, struct error *err)
-{
-	int method = config->pressure_solver.method;
-
-	if (config->pressure_solver.operator_ != OPERATOR_POINTWISE)
-		return 0;
-	if (config_symmetric_only(method)) {
-		(void)error_set(err, EX_DATAERR,
-			"pressure_solver.method: %s solves symmetric systems only, and "
-			"pressure_solver.operator "
-			"is pointwise",
-			field_find(&config_table, "pressure_solver.method")->choices[method]);
-		return field_blame(reader, "pressure_solver.method", "pressure_solver.operator", -1, err);
-	}
-	if (config->domain.cells >= 4)
-		return 0;
-	(void)error_set(err, EX_DATAERR,
-		"domain.cells: %d is too few for the pointwise operator, which needs 4",
-		config->domain.cells);
-	return field_blame(reader, "domain.cells", "pressure_solver.operator", -1, err);
-}
-
-static int check_rheology(
-	const struct config *config, const struct field_reader *reader, struct error *err)
-{
-	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
-
-	if (config->rheology.law == LAW_LINEAR && config->model != MODEL_IMMERSED) {
-		(void)error_set(err, EX_DATAERR, "rheology.law: linear is a law of model: immersed");
-		return field_blame(reader, "rheology.law", "model", -1, err);
-	}
-	if (config->rheology.law == LAW_CONSTANT && config->model != MODEL_DRY) {
-		(void)error_set(err, EX_DATAERR,
-			"rheology.law: constant is a law of model: dry; in the others linear with k_1: 0 is");
-		return field_blame(reader, "rheology.law", "model", -1, err);
-	}
-	if (config->rheology.law != LAW_MU_I || config->rheology.mu_s <= config->rheology.mu_2)
-		return 0;
-	(void)error_set(err, EX_DATAERR, "rheology: mu_s (%s) is above mu_2 (%s)",
-		text_real(config->rheology.mu_s, first), text_real(config->rheology.mu_2, second));
-	return field_blame(reader, "rheology.mu_s", "rheology.mu_2", -1, err);
-}
-
-static int check_fractions(
-	const struct config *config, const struct field_reader *reader, struct error *err)
-{
-	const struct real_list *fractions = &config->layer_fractions;
-	char shown[TEXT_REAL_SIZE];
-	double sum = 0;
-
-	if (!fractions->count)
-		return 0;
-	for (int i = 0; i < fractions->count; i++)
-		sum += fractions->values[i];
-	if (fractions->count != config->layers) {
-		(void)error_set(err, EX_DATAERR, "layer_fractions: %d values for layers: %d",
-			fractions->count, config->layers);
-		return field_blame(reader, "layer_fractions", "layers", -1, err);
-	}
-	if (!(fabs(sum - 1) <= 1e-9)) {
-		(void)error_set(
-			err, EX_DATAERR, "layer_fractions: they add up to %s, not to 1", text_real(sum, shown));
-		return field_blame(reader, "layer_fractions", NULL, -1, err);
-	}
-	if (config->model != MODEL_DRY || config->pressure == PRESSURE_HYDROSTATIC ||
-		config->pressure_solver.operator_ == OPERATOR_SYMMETRIC)
-		return 0;
-	(void)error_set(err, EX_DATAERR,
-		"layer_fractions: pressure_solver.operator: pointwise is P1's, of equal layers; symmetric "
-		"takes any");
-	return field_blame(reader, "layer_fractions", "pressure_solver.operator", -1, err);
-}
-
-/* What leaves at one end comes in at the other. */
-static int check_ends(
-	const struct config *config, const struct field_reader *reader, struct error *err)
-{
-	bool left = config->domain.left == BOUNDARY_PERIODIC;
-	bool right = config->domain.right == BOUNDARY_PERIODIC;
-
-	if (left != right) {
-		(void)error_set(err, EX_DATAERR, "domain: %s is periodic and %s is not; it takes both ends",
-			left ? "left" : "right", left ? "right" : "left");
-		return field_blame(reader, "domain.left", "domain.right", -1, err);
-	}
-	if (!left || config->pressure == PRESSURE_HYDROSTATIC)
-		return 0;
-	if (config->pressure_solver.operator_ == OPERATOR_POINTWISE) {
-		(void)error_set(err, EX_DATAERR,
-			"pressure_solver.operator: pointwise has rows at walls and outflows (P1 37), none at "
-			"periodic ends; they take symmetric");
-		return field_blame(reader, "pressure_solver.operator", "domain.left", -1, err);
-	}
-	if (config_periodic_too(config->pressure_solver.method))
-		return 0;
-	(void)error_set(err, EX_DATAERR,
-		"pressure_solver.method: %s knows walls and outflows; periodic ends take auto or "
-		"conjugate-gradients",
-		field_find(&config_table, "pressure_solver.method")
-			->choices[config->pressure_solver.method]);
-	return field_blame(reader, "pressure_solver.method", "domain.left", -1, err);
-}
-
-/* Grains that do not sink have no weight to press them together. */
-static int check_fluid(
-	const struct config *config, const struct field_reader *reader, struct error *err)
-{
-	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
-
-	if (config->model != MODEL_IMMERSED || config->fluid.density < config->grains.density)
-		return 0;
-	(void)error_set(err, EX_DATAERR,
-		"fluid.density: %s kg/m3 is not below grains.density (%s kg/m3)",
-		text_real(config->fluid.density, first), text_real(config->grains.density, second));
-	return field_blame(reader, "fluid.density", "grains.density", -1, err);
-}
-
-/* The times that would do are told as they are to be set: the commonest way here is an earlier end. */
-static int check_times(
-	const struct config *config, const struct field_reader *reader, struct error *err)
-{
-	const struct real_list *times = &config->output.profiles_at;
-	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
-	struct text kept = {0};
-	int good = 0;
-
-	while (good < times->count && times->values[good] <= config->time.end) {
-		text_addf(&kept, "%s%s", good ? "," : "", text_real(times->values[good], first));
-		good++;
-	}
-	if (good < times->count)
-		(void)error_set(err, EX_DATAERR,
-			"output.profiles_at: %s s is after time.end (%s s); an earlier end wants fewer times: "
-			"output.profiles_at=[%s]",
-			text_real(times->values[good], first), text_real(config->time.end, second),
-			text_string(&kept));
-	text_clean(&kept);
-	return good < times->count ? field_blame(reader, "output.profiles_at", "time.end", good, err)
-							   : 0;
-}
-
-static int check_positions(const struct config *config, const char *key,
-	const struct real_list *positions, const struct field_reader *reader, struct error *err)
-{
-	char first[TEXT_REAL_SIZE], second[TEXT_REAL_SIZE];
-
-	for (int i = 0; i < positions->count; i++) {
-		double x = positions->values[i];
-		bool left = x < config->domain.x_min;
-
-		if (!left && x <= config->domain.x_max)
-			continue;
-		(void)error_set(err, EX_DATAERR, "%s: %s m is outside the domain, %s m is its %s", key,
-			text_real(x, first),
-			text_real(left ? config->domain.x_min : config->domain.x_max, second),
-			left ? "x_min" : "x_max");
-		return field_blame(reader, key, left ? "domain.x_min" : "domain.x_max", i, err);
-	}
-	return 0;
-}
-
-static int check_output(
-	const struct config *config, const struct field_reader *reader, struct error *err)
-{
-	TRY(check_times(config, reader, err));
-	TRY(check_positions(config, "output.gauges", &config->output.gauges, reader, err));
-	return check_positions(config, "output.velocity_at", &config->output.velocity_at, reader, err);
-}
-
 static int read_tree(struct config *config, const struct field_source *file,
 	const char *const *settings, int count, struct error *err)
 {
@@ -320,11 +84,7 @@ static int read_tree(struct config *config, const struct field_source *file,
 	for (int i = 0; i < count; i++)
 		if (collect_setting(&reader, &list[i], settings[i], err) != 0)
 			goto done;
-	if (field_convert(&reader, config, err) == 0 && check_layers(config, &reader, err) == 0 &&
-		check_domain(config, &reader, err) == 0 && check_ends(config, &reader, err) == 0 &&
-		check_rheology(config, &reader, err) == 0 && check_output(config, &reader, err) == 0 &&
-		check_operator(config, &reader, err) == 0 && check_fractions(config, &reader, err) == 0 &&
-		check_fluid(config, &reader, err) == 0 && config_check_geometry(config, &reader, err) == 0)
+	if (field_convert(&reader, config, err) == 0 && config_check(config, &reader, err) == 0)
 		status = 0;
 done:
 	for (int i = 0; i < count; i++)

@@ -67,8 +67,8 @@ static const char *const viscosities[] = {
 static const char *const wave_speeds[] = {
 	[WAVE_SPEED_FASTEST] = "fastest", [WAVE_SPEED_MEAN] = "mean", NULL};
 static const char *const reconstructions[] = {
-	[RECONSTRUCTION_STATIC] = "static", [RECONSTRUCTION_PRINTED] = "printed",
-	[RECONSTRUCTION_CREEPING] = "creeping", NULL};
+	[RECONSTRUCTION_RESTING] = "resting", [RECONSTRUCTION_STATIC] = "static",
+	[RECONSTRUCTION_PRINTED] = "printed", NULL};
 static const char *const methods[] = {[METHOD_AUTO] = "auto",
 	[METHOD_BLOCK_GAUSS_SEIDEL] = "block-gauss-seidel",
 	[METHOD_BLOCK_GAUSS_SEIDEL_FACTORED] = "block-gauss-seidel-factored",
@@ -225,10 +225,11 @@ static const struct field fields[] = {
 		"time step of semi-implicit; the drag allows some 1.4e-5 s at low viscosity"),
 
 	GROUP(scheme, DRY, "readings of the discretisation"),
-	CHOICE("scheme.friction_reconstruction", scheme.friction_reconstruction, DRY, "static",
+	CHOICE("scheme.friction_reconstruction", scheme.friction_reconstruction, DRY, "resting",
 		reconstructions,
-		"where friction balances the slope in P1 (21): static: only at rest; printed: also in motion; "
-		"creeping: as printed below 100 delta, else static; heaps keep their shape best with it"),
+		"where friction balances the slope in P1 (21): resting: only at rest, and nothing passes between cells at "
+		"rest (below the angle of repose, slower than 100 delta), so that heaps keep their shape; static: only at "
+		"rest; printed: also in motion"),
 	CHOICE("scheme.exchange", scheme.exchange, DRY, "mean", exchanges,
 		"velocity of what two layers exchange: the mean of both (P1), or of the layer that gives (upwind), which "
 		"hydrostatic layers need to survive a bore"),

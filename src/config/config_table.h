@@ -7,8 +7,7 @@
 
 extern const struct field_table config_table;
 
-/* config_geometry.c: EX_DATAERR with the place. */
-int config_check_geometry(
-	const struct config *config, const struct field_reader *reader, struct error *err);
+/* config_check.c: what keys say together has to agree. EX_DATAERR with the place. */
+int config_check(const struct config *config, const struct field_reader *reader, struct error *err);
 
 #endif

@@ -7,8 +7,8 @@
 /* Of the energy at the beginning. What friction cannot explain is some 1e-7 of it where cells are fine. */
 #define DOUBTFUL_RISE 0.01
 
-/* Ten non-hydrostatic layers on the random bed of the default roughness and on 640 cells take all three, and then fewer layers or
- * less roughness: of six seeds one got through, of 20 mm or with two layers all. */
+/* Ten non-hydrostatic layers on the random bed of the default roughness and on 640 cells take all three, and
+ * then fewer layers or less roughness: of six seeds one got through; with two layers, or 20 mm, all. */
 void dry_note_remedy(struct model_state *s, const struct config *config)
 {
 	bool several = s->layers > 1, rough = config->topography.shape == TOPOGRAPHY_RANDOM;

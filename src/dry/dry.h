@@ -29,6 +29,11 @@
 #define DRY_ONE_LAYER 1e-6    /* thinner cells slide as one layer (P1 Remark 2) */
 #define DRY_NO_PRESSURE 1e-5  /* faces next to thinner cells have no non-hydrostatic pressure */
 
+/* Grains are at rest on slopes of up to mu_s (exactly 1 would lose those at the limit) while they are
+ * slower than so many delta: what moves then is the regularisation. */
+#define DRY_REST_SLOPE (1 + 1e-9)
+#define DRY_REST_SPEED 100
+
 /* Constants of a run. */
 struct dry_parameters {
 	double gc;              /* g cos(theta), or g in Cartesian coordinates, m/s2 */

@@ -26,8 +26,8 @@ KERNEL_PART void friction_thickness(
 	const double *restrict h = s->h + first, *restrict b = s->b + first;
 	const double *restrict bottom = s->u + first;
 	const double *restrict top = s->u + (size_t)(s->layers - 1) * s->grid.stride + first;
-	double limit = s->par.plain_thickness ? -1 : 2 * s->grid.dx * s->par.mu_s * (1 + 1e-9);
-	double rest = 100 * s->par.delta_velocity, plane[CHUNK_CELLS] = {0};
+	double limit = s->par.plain_thickness ? -1 : 2 * s->grid.dx * s->par.mu_s * DRY_REST_SLOPE;
+	double rest = DRY_REST_SPEED * s->par.delta_velocity, plane[CHUNK_CELLS] = {0};
 
 	for (int k = 0; k < c->cells; k++)
 		plane[k] = -2 * s->par.tan_slope * s->grid.dx;

@@ -282,6 +282,7 @@ void dry_velocities(struct model_state *s)
 {
 	chunk_each(s, velocities, 0);
 	grid_fill_odd(&s->grid, s->mean);
+	grid_fill_even(&s->grid, s->fastest);
 	for (int a = 0; a < s->layers; a++) {
 		grid_fill_odd(&s->grid, s->u + (size_t)a * s->grid.stride);
 		grid_fill_even(&s->grid, s->w + (size_t)a * s->grid.stride);
@@ -406,7 +407,7 @@ static size_t arrays(struct model_state *s, struct array *list)
 
 const struct model dry_model = {
 	.name = "dry",
-	.numerics_version = 3,
+	.numerics_version = 4,
 	.series = dry_series,
 	.series_count = DRY_SERIES_COUNT,
 	.profiles = dry_profiles,

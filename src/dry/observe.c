@@ -37,7 +37,8 @@ const struct series dry_series[DRY_SERIES_COUNT] = {
 		.window = 0.02},
 	[MAX_SPEED] = {.name = "max_speed",
 		.units = "m s-1",
-		.long_name = "largest layer velocity along the slope",
+		.long_name =
+			"largest layer velocity along the slope, where the grains are 10 um thick or more",
 		.slope_of = -1},
 	[MAX_THICKNESS] = {.name = "max_thickness",
 		.units = "m",
@@ -210,7 +211,8 @@ void dry_observe(const struct model_state *s, double *values)
 	for (int i = 1; i <= s->grid.cells; i++) {
 		mass += s->h[i];
 		thickest = s->h[i] > thickest ? s->h[i] : thickest;
-		speed = s->fastest[i] > speed ? s->fastest[i] : speed;
+		if (s->h[i] >= DRY_NO_PRESSURE) /* a film before a steep toe never quite stops */
+			speed = s->fastest[i] > speed ? s->fastest[i] : speed;
 	}
 	values[FRONT_POSITION] = front(s);
 	values[MAX_SPEED] = speed;

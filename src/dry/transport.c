@@ -19,6 +19,7 @@ struct window {
 	double source[ROW], rest_source[ROW]; /* S and S~ of the momentum along x, m3/s2 */
 	double left[ROW], right[ROW];         /* h~- and h~+, m */
 	double mass_flux[ROW];                /* m2/s */
+	double moves[ROW];                    /* 0 where the grains are at rest, else 1 */
 	double share[ROW];                    /* part of the flux that its donor can pay, 1 */
 	double ends[2];                       /* the same of the ghosts where they are cells, else 1 */
 };
@@ -48,13 +49,10 @@ KERNEL_PART double held_jump(const struct dry_parameters *par, int reconstructio
 	double force = u_roe / dt - par->gc * eta_jump / dx, most = par->gc * mu;
 	double still = fabs(eta_jump) <= REST_MARGIN * mu * dx ? -eta_jump : 0;
 
-	if (reconstruction == RECONSTRUCTION_STATIC)
+	if (reconstruction != RECONSTRUCTION_PRINTED)
 		return still;
 	force = force > most ? most : force < -most ? -most : force;
-	force = force * dx / par->gc;
-	if (reconstruction == RECONSTRUCTION_PRINTED)
-		return force;
-	return fabs(u_roe) < 100 * par->delta_velocity ? force : still;
+	return force * dx / par->gc;
 }
 
 /* Difference of the bed and the reference plane over every face; a wall mirrors the plane. */
@@ -119,6 +117,27 @@ KERNEL_PART void reconstruct(const struct model_state *s, int reconstruction, do
 	}
 }
 
+/* Where grains rest on both sides of a face, nothing passes it: Coulomb friction holds them, and their
+ * speed is that of its regularisation alone. P1's dC does not stop it: as printed, the u/dt in it makes the
+ * flux h u (1 - 1/(2 CFL)), which at CFL 0.1 is four times the creep, up the slope. */
+KERNEL_PART void find_rest(
+	const struct model_state *s, const double *restrict plane, struct window *r)
+{
+	const double *restrict h_i = s->h + r->first, *restrict h_j = h_i + 1;
+	const double *restrict b_i = s->b + r->first, *restrict b_j = b_i + 1;
+	const double *restrict u_i = s->fastest + r->first, *restrict u_j = u_i + 1;
+	bool rests = s->par.reconstruction == RECONSTRUCTION_RESTING;
+	double slow = rests ? DRY_REST_SPEED * s->par.delta_velocity : -1; /* never, where below 0 */
+	double limit = s->par.mu_s * s->grid.dx * DRY_REST_SLOPE;
+
+	for (int f = 0; f < r->faces; f++) {
+		double jump = b_j[f] - b_i[f] + plane[f] + h_j[f] - h_i[f];
+		int still = (int)(fabs(jump) <= limit) & (int)(larger(u_i[f], u_j[f]) < slow);
+
+		r->moves[f] = still ? 0 : 1;
+	}
+}
+
 KERNEL_PART void mass_fluxes(const struct model_state *s, struct window *r)
 {
 	const double *restrict h = s->h + r->first, *restrict ubar = s->mean + r->first;
@@ -126,8 +145,9 @@ KERNEL_PART void mass_fluxes(const struct model_state *s, struct window *r)
 	for (int f = 0; f < r->faces; f++) {
 		double left = h[f] * ubar[f], right = h[f + 1] * ubar[f + 1];
 
-		r->mass_flux[f] = 0.5 * (left + right) - 0.5 * (r->alpha0[f] * (r->right[f] - r->left[f]) +
-														   r->alpha1[f] * (right - left));
+		r->mass_flux[f] =
+			r->moves[f] * (0.5 * (left + right) - 0.5 * (r->alpha0[f] * (r->right[f] - r->left[f]) +
+															r->alpha1[f] * (right - left)));
 	}
 }
 
@@ -156,7 +176,7 @@ KERNEL_PART void limit_outflow(const struct model_state *s, double dt, struct wi
 		int blocked = (int)dry_emerges(h[f], b[f], h[f + 1], b[f + 1]) |
 					  (int)dry_emerges(h[f + 1], b[f + 1], h[f], b[f]);
 
-		r->share[f] = blocked ? 0 : share;
+		r->share[f] = blocked ? 0 : share * r->moves[f];
 	}
 }
 
@@ -266,12 +286,11 @@ KERNEL_PART void fill_window(const struct model_state *s, double dt, struct wind
 
 	plane_jumps(s, r, plane);
 	hll_coefficients(s, r, u_roe);
-	if (s->par.reconstruction == RECONSTRUCTION_STATIC)
-		reconstruct(s, RECONSTRUCTION_STATIC, dt, plane, u_roe, r);
-	else if (s->par.reconstruction == RECONSTRUCTION_PRINTED)
+	if (s->par.reconstruction == RECONSTRUCTION_PRINTED)
 		reconstruct(s, RECONSTRUCTION_PRINTED, dt, plane, u_roe, r);
 	else
-		reconstruct(s, RECONSTRUCTION_CREEPING, dt, plane, u_roe, r);
+		reconstruct(s, RECONSTRUCTION_STATIC, dt, plane, u_roe, r);
+	find_rest(s, plane, r);
 	mass_fluxes(s, r);
 }
 

@@ -65,8 +65,8 @@ const struct series immersed_series[IMMERSED_SERIES_COUNT] = {
 		.slope_of = -1},
 	[PRESSURE_ERROR] = {.name = "pressure_error",
 		.units = "1",
-		.long_name = "relative distance of the solid pressure from that root, largest over the "
-					 "interfaces",
+		.long_name =
+			"relative distance of the solid pressure from that root, largest over the interfaces",
 		.slope_of = -1},
 	[HEIGHT] = {.name = "height",
 		.units = "m",

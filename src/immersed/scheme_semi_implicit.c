@@ -121,9 +121,9 @@ static int check(const struct model_state *s, const struct immersed_column *c, s
 	for (int a = 0; a < s->layers; a++)
 		if (!isfinite(c->v[a] + c->u[a] + c->p[a] + c->S[a]) || !(c->phi[a] > 0 && c->phi[a] < 1))
 			return error_set(err, EX_FAILED,
-				"layer %d is no flow (phi = %g, v = %g m/s, u = %g m/s, p = %g Pa): time.step (%g "
-				"s) "
-				"is too long for the semi-implicit scheme, or take time.scheme: tr-bdf2",
+				"layer %d is no flow (phi = %g, v = %g m/s, u = %g m/s, p = %g Pa): "
+				"time.step (%g s) is too long for the semi-implicit scheme, "
+				"or take time.scheme: tr-bdf2",
 				a + 1, c->phi[a], c->v[a], c->u[a], c->p[a], s->fixed_step);
 	return 0;
 }

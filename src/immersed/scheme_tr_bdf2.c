@@ -215,8 +215,7 @@ static int step(struct model_state *s, double dt, struct error *err)
 		dt *= fmin(factor, 0.9);
 		if (!(dt > shortest))
 			return error_set(err, EX_FAILED,
-				"the step has shrunk to %g s, and %s (at the bottom phi = %.6g, v = %.6g m/s, "
-				"p = %.6g Pa)",
+				"the step has shrunk to %g s, and %s (at the bottom phi = %.6g, v = %.6g m/s, p = %.6g Pa)",
 				dt, solved ? "its error is still too large" : "Newton's method still fails",
 				s->now.phi[0], s->now.v[0], s->now.p[0]);
 	}

@@ -192,8 +192,8 @@ static void add_legend(
 		return;
 	add_margins(out, g, sides[0], sides[1], sides[2], sides[3]);
 	text_addf(out,
-		"unset key; unset border; unset xtics; unset ytics; unset grid; unset title; unset xlabel; "
-		"unset ylabel; unset label\n"
+		"unset key; unset border; unset xtics; unset ytics; "
+		"unset grid; unset title; unset xlabel; unset ylabel; unset label\n"
 		"unset logscale; set xrange [0:%.3f]; set yrange [0:%.3f]\n",
 		sides[1] - sides[0], sides[3] - sides[2]);
 	for (int i = 0; i < (int)legend->count; i++) {
@@ -337,10 +337,11 @@ static void add_map(struct text *out, const struct figure_panel *panel, size_t p
 {
 	if (panel->map.rows < 2)
 		return;
-	text_add(out, "set palette defined (0 '#440154', 1 '#472D7B', 2 '#3B528B', 3 '#2C728E', "
-				  "4 '#21918C', 5 '#28AE80', 6 '#5EC962', 7 '#ADDC30', 8 '#FDE725')\n"
-				  "set colorbox noborder; set cbtics scale 0; set autoscale xfix; "
-				  "set autoscale yfix\n");
+	text_add(out, "set palette defined (0 '#440154', 1 '#472D7B', 2 '#3B528B', "
+				  "3 '#2C728E', 4 '#21918C', 5 '#28AE80', "
+				  "6 '#5EC962', 7 '#ADDC30', 8 '#FDE725')\n"
+				  "set colorbox noborder; set cbtics scale 0; "
+				  "set autoscale xfix; set autoscale yfix\n");
 	add_text(out, "set cblabel", &panel->map.label);
 	text_addf(out, " offset 0.5,0\nplot $m%zu using 1:2:3 with image notitle", p);
 	*any = true;
@@ -403,8 +404,7 @@ static void add_terminal(
 {
 	if (!strcmp(output->format, "svg"))
 		text_addf(out,
-			"set terminal svg enhanced size %.0f,%.0f font '" FONT ",%d' background "
-			"'#FFFFFF'\n",
+			"set terminal svg enhanced size %.0f,%.0f font '" FONT ",%d' background '#FFFFFF'\n",
 			g->total[0], g->total[1], FONT_SIZE);
 	else if (!strcmp(output->format, "png"))
 		text_addf(out,

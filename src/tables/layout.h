@@ -78,7 +78,11 @@ int layout_check_time(const struct layout *layout, const struct term *term, doub
 int layout_observed(const struct layout *layout, const struct experiment_run *run, const char *name,
 	bool over_x, const struct observed **out, struct error *err);
 
-/* Read the published values: src/tables/published.c. */
+/* layout_measures.c: every metric once, those of a profile once for every time, those of a place once for every
+ * position. EX_DATAERR where a run cannot have one. */
+int layout_list_measures(struct layout *layout, struct error *err);
+
+/* published.c: read the published values. */
 int layout_read_published(struct layout *layout, struct error *err);
 
 #endif

@@ -40,26 +40,20 @@ static int series_at(
 {
 	struct dataset time = {0}, data = {0};
 	size_t i = 0, count;
-	int result = -1;
 
-	if (metric_read(file, "time", &time, err) || metric_read(file, name, &data, err))
-		goto done;
+	TRY(metric_read_series(file, name, &time, &data, err));
 	count = metric_count(&time);
-	if (metric_count(&data) != count || at < time.values[0] || at > time.values[count - 1]) {
+	if (at < time.values[0] || at > time.values[count - 1])
 		(void)error_set(err, EX_DATAERR, "'%s' has no value at %g s", name, at);
-		goto done;
-	}
 	while (i + 1 < count && time.values[i + 1] < at)
 		i++;
 	*out = data.values[i];
 	if (i + 1 < count)
 		*out += (data.values[i + 1] - data.values[i]) * (at - time.values[i]) /
 				(time.values[i + 1] - time.values[i]);
-	result = 0;
-done:
 	free(time.values);
 	free(data.values);
-	return result;
+	return err->code ? -1 : 0;
 }
 
 /* The front at a time, from the gate and along the reference plane; it is on the bed, which is taken to be

@@ -111,7 +111,7 @@ int metric_series_loss(const struct sample *sample, double *out, struct error *e
 }
 
 /* A series and the times of its values. */
-static int read_both(struct run_file *file, const char *name, struct dataset *times,
+int metric_read_series(struct run_file *file, const char *name, struct dataset *times,
 	struct dataset *values, struct error *err)
 {
 	TRY(metric_read(file, "time", times, err));
@@ -119,6 +119,7 @@ static int read_both(struct run_file *file, const char *name, struct dataset *ti
 		return 0;
 	free(times->values);
 	free(values->values);
+	times->values = values->values = NULL;
 	(void)error_set(err, EX_DATAERR, "series '%s' has no time for each value", name);
 	return -1;
 }
@@ -141,7 +142,7 @@ int metric_series_half_time(const struct sample *sample, double *out, struct err
 {
 	struct dataset times = {0}, values = {0};
 
-	TRY(read_both(sample->file, sample->metric->dataset, &times, &values, err));
+	TRY(metric_read_series(sample->file, sample->metric->dataset, &times, &values, err));
 	*out = crossing(&times, &values, 0.5 * values.values[metric_count(&values) - 1]);
 	free(times.values);
 	free(values.values);
@@ -152,7 +153,7 @@ int metric_series_sign_change(const struct sample *sample, double *out, struct e
 {
 	struct dataset times = {0}, values = {0};
 
-	TRY(read_both(sample->file, sample->metric->dataset, &times, &values, err));
+	TRY(metric_read_series(sample->file, sample->metric->dataset, &times, &values, err));
 	*out = crossing(&times, &values, 0);
 	free(times.values);
 	free(values.values);
@@ -166,8 +167,8 @@ int metric_series_difference(const struct sample *sample, double *out, struct er
 	double worst = 0, largest = 0;
 	size_t k = 1, count;
 
-	TRY(read_both(sample->file, sample->metric->dataset, &times, &values, err));
-	if (read_both(sample->partner, sample->metric->dataset, &at, &reference, err)) {
+	TRY(metric_read_series(sample->file, sample->metric->dataset, &times, &values, err));
+	if (metric_read_series(sample->partner, sample->metric->dataset, &at, &reference, err)) {
 		free(times.values);
 		free(values.values);
 		return -1;

@@ -170,8 +170,8 @@ static int read_header(const struct csv *csv, struct observed *observed, double 
 		return fail(csv, 1, "a column 'time' is wanted: the first line names the columns");
 	if (observed->columns == 1 + (observed->x != OBSERVED_NONE))
 		return fail(csv, 1,
-			"a column of values is wanted beside time%s, named like a dataset of the "
-			"run files: h, front_position",
+			"a column of values is wanted beside time%s, "
+			"named like a dataset of the run files: h, front_position",
 			observed->x != OBSERVED_NONE ? " and x" : "");
 	return 0;
 }

@@ -1,17 +1,9 @@
 /* Campaigns over programs that crash, hang or are not there. */
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <cmocka.h>
+#include "../base/folder.h"
 
 #include "talus/campaign.h"
 
@@ -19,35 +11,13 @@ static const char base[] = "slope: 22 deg\n"
 						   "erodible_bed_thickness: 1.82 mm\n"
 						   "layers: 4\n";
 
-static void write_file(const char *name, const char *text)
+/* With base.yaml in it. */
+static int enter_study(void **state)
 {
-	FILE *file = fopen(name, "w");
-
-	assert_non_null(file);
-	assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
-	assert_int_equal(fclose(file), 0);
-}
-
-static int enter_folder(void **state)
-{
-	char name[] = "/tmp/talus-test-XXXXXX";
-
-	if (!mkdtemp(name) || chdir(name))
+	if (enter_folder(state))
 		return -1;
-	*state = strdup(name);
 	write_file("base.yaml", base);
 	return 0;
-}
-
-static int leave_folder(void **state)
-{
-	char command[256];
-	int result;
-
-	(void)snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
-	result = chdir("/") || system(command); /* NOLINT(cert-env33-c): a folder of our own */
-	free(*state);
-	return result;
 }
 
 /* Two runs with layers 4 and 8, each executed by ./program with this text (NULL: there is none). */
@@ -319,7 +289,7 @@ static void a_config_is_written_for_each_run(void **state)
 	experiment_clean(&e);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, enter_folder, leave_folder)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, enter_study, leave_folder)
 
 int main(void)
 {

@@ -1,15 +1,7 @@
 /* Experiment files: what runs they ask for, what those are called, and what is refused. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include <cmocka.h>
+#include "../base/folder.h"
 
 #include "talus/experiment.h"
 
@@ -19,35 +11,13 @@ static const char base[] = "slope: 22 deg\n"
 						   "domain: {x_min: -0.2 m, x_max: 1.4 m, cells: 160}\n"
 						   "time: {end: 0.3 s, cfl: 0.5}\n";
 
-static void write_file(const char *name, const char *text)
+/* With base.yaml in it. */
+static int enter_study(void **state)
 {
-	FILE *file = fopen(name, "w");
-
-	assert_non_null(file);
-	assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
-	assert_int_equal(fclose(file), 0);
-}
-
-static int enter_folder(void **state)
-{
-	char name[] = "/tmp/talus-test-XXXXXX";
-
-	if (!mkdtemp(name) || chdir(name))
+	if (enter_folder(state))
 		return -1;
-	*state = strdup(name);
 	write_file("base.yaml", base);
 	return 0;
-}
-
-static int leave_folder(void **state)
-{
-	char command[256];
-	int result;
-
-	(void)snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
-	result = chdir("/") || system(command); /* NOLINT(cert-env33-c): a folder of our own */
-	free(*state);
-	return result;
 }
 
 /* The experiment of this text on top of base.yaml. */
@@ -180,12 +150,12 @@ static void repeats_come_after_one_another(void **state)
 
 static void a_name_has_what_varies_as_it_was_written(void **state)
 {
-	struct experiment e = read_good("base: base.yaml\n"
-									"runs:\n"
-									"  - {model: dry, slope: [22 deg, 0.1 rad], "
-									"rheology.mu_s: tan(25.5 deg)}\n"
-									"  - {rheology.mu_s: '0.4'}\n",
-		NULL, 0);
+	struct experiment e =
+		read_good("base: base.yaml\n"
+				  "runs:\n"
+				  "  - {model: dry, slope: [22 deg, 0.1 rad], rheology.mu_s: tan(25.5 deg)}\n"
+				  "  - {rheology.mu_s: '0.4'}\n",
+			NULL, 0);
 
 	(void)state;
 	assert_readable(&e.runs[0], "model-dry_slope-22deg");
@@ -470,7 +440,8 @@ static void what_is_wrong_is_refused_with_its_place(void **state)
 	} cases[] = {
 		{"bse: base.yaml\n", "study.yaml:1:1: unknown key 'bse'; did you mean 'base'?"},
 		{"title: x\nzzzzzzzz: 1\n",
-			"study.yaml:2:1: unknown key 'zzzzzzzz'; known are: title, source, base, set, runs, "
+			"study.yaml:2:1: unknown key 'zzzzzzzz'; "
+			"known are: title, source, base, set, runs, "
 			"repeat, timing, tables, plots, observations, published, slurm"},
 		{"base: base.yaml\nbase: base.yaml\n",
 			"study.yaml:2:1: duplicate key 'base'; it is already on line 1"},
@@ -566,7 +537,7 @@ static void an_error_of_the_base_is_cited_there(void **state)
 	assert_refused("base: base.yaml\n", "base.yaml:3:9: layers: many is not a whole number");
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, enter_folder, leave_folder)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, enter_study, leave_folder)
 
 int main(void)
 {

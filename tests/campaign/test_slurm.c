@@ -1,49 +1,26 @@
 /* The queue of Slurm over commands that stand in for squeue and scancel. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include <cmocka.h>
+#include "../base/folder.h"
 
 #include "base/file.h"
 #include "talus/campaign.h"
 
-static void write_file(const char *name, const char *text)
+static void write_program(const char *name, const char *text)
 {
-	FILE *file = fopen(name, "w");
-
-	assert_non_null(file);
-	assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
-	assert_int_equal(fclose(file), 0);
+	write_file(name, text);
 	assert_int_equal(chmod(name, 0755), 0);
 }
 
-static int enter_folder(void **state)
+/* With a folder before those of PATH. */
+static int enter_shimmed(void **state)
 {
-	char name[] = "/tmp/talus-test-XXXXXX", path[4096];
+	char path[4096];
 
-	if (!mkdtemp(name) || chdir(name) || mkdir("shim", 0777))
+	if (enter_folder(state) || mkdir("shim", 0777))
 		return -1;
-	*state = strdup(name);
-	(void)snprintf(path, sizeof path, "%s/shim:%s", name, getenv("PATH"));
+	(void)snprintf(path, sizeof path, "%s/shim:%s", (char *)*state, getenv("PATH"));
 	return setenv("PATH", path, 1);
-}
-
-static int leave_folder(void **state)
-{
-	char command[256];
-	int result;
-
-	(void)snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
-	result = chdir("/") || system(command); /* NOLINT(cert-env33-c): a folder of our own */
-	free(*state);
-	return result;
 }
 
 /* Three runs, of which the queue has two: one waits, and one computes although it waits as well. */
@@ -60,16 +37,17 @@ static struct experiment read_study(void)
 	text_addf(&runs, "gone\n%s\n%s\n", experiment.runs[2].id, experiment.runs[0].id);
 	write_file("results/study/slurm/talus-study-1.runs", text_string(&runs));
 	text_clean(&runs);
-	write_file("shim/squeue", "#!/bin/sh\n"
-							  "echo '12_0 PENDING talus-study-1 (Resources)'\n"
-							  "echo '12_1 PENDING talus-study-1 Nodes required for job are DOWN'\n"
-							  "echo '12_2 PENDING talus-study-1 Priority'\n"
-							  "echo '13_2 RUNNING talus-study-1 None'\n"
-							  "echo '12_2 PENDING talus-study-1 Priority'\n"
-							  "echo '12_77 RUNNING talus-study-1 None'\n"
-							  "echo '14_1 RUNNING talus-study-2 None'\n"
-							  "echo '15_1 RUNNING ../slurm/talus-study-1 None'\n"
-							  "echo '16 RUNNING talus-study-1 None'\n");
+	write_program("shim/squeue",
+		"#!/bin/sh\n"
+		"echo '12_0 PENDING talus-study-1 (Resources)'\n"
+		"echo '12_1 PENDING talus-study-1 Nodes required for job are DOWN'\n"
+		"echo '12_2 PENDING talus-study-1 Priority'\n"
+		"echo '13_2 RUNNING talus-study-1 None'\n"
+		"echo '12_2 PENDING talus-study-1 Priority'\n"
+		"echo '12_77 RUNNING talus-study-1 None'\n"
+		"echo '14_1 RUNNING talus-study-2 None'\n"
+		"echo '15_1 RUNNING ../slurm/talus-study-1 None'\n"
+		"echo '16 RUNNING talus-study-1 None'\n");
 	return experiment;
 }
 
@@ -97,7 +75,7 @@ static void an_experiment_that_was_never_submitted_asks_nobody(void **state)
 	size_t count = 7;
 
 	(void)state;
-	write_file("shim/squeue", "#!/bin/sh\nexit 1\n");
+	write_program("shim/squeue", "#!/bin/sh\nexit 1\n");
 	assert_int_equal(executor_queue(&e, entries, &err), -1);
 	assert_int_equal(err.code, EX_UNAVAILABLE);
 	err = (struct error){0};
@@ -117,7 +95,7 @@ static void assert_cancels(const bool *chosen, size_t expected, const char *argu
 	size_t count, size;
 
 	(void)unlink("asked");
-	write_file("shim/scancel", "#!/bin/sh\necho \"$*\" >asked\n");
+	write_program("shim/scancel", "#!/bin/sh\necho \"$*\" >asked\n");
 	assert_int_equal(executor_find("slurm")->cancel(&e, chosen, &count, &err), 0);
 	assert_int_equal(count, expected);
 	if (*arguments) {
@@ -145,7 +123,7 @@ static void a_scancel_that_refuses_is_told(void **state)
 	size_t count;
 
 	(void)state;
-	write_file("shim/scancel", "#!/bin/sh\necho 'scancel: error: Access denied' >&2; exit 1\n");
+	write_program("shim/scancel", "#!/bin/sh\necho 'scancel: error: Access denied' >&2; exit 1\n");
 	assert_int_equal(executor_find("slurm")->cancel(&e, NULL, &count, &err), -1);
 	assert_int_equal(err.code, EX_UNAVAILABLE);
 	assert_string_equal(err.text, "scancel ended with code 1: scancel: error: Access denied");
@@ -157,12 +135,13 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test_setup_teardown(
-			a_task_is_known_by_the_name_of_its_array, enter_folder, leave_folder),
+			a_task_is_known_by_the_name_of_its_array, enter_shimmed, leave_folder),
 		cmocka_unit_test_setup_teardown(
-			an_experiment_that_was_never_submitted_asks_nobody, enter_folder, leave_folder),
+			an_experiment_that_was_never_submitted_asks_nobody, enter_shimmed, leave_folder),
 		cmocka_unit_test_setup_teardown(
-			the_tasks_of_the_chosen_runs_are_cancelled, enter_folder, leave_folder),
-		cmocka_unit_test_setup_teardown(a_scancel_that_refuses_is_told, enter_folder, leave_folder),
+			the_tasks_of_the_chosen_runs_are_cancelled, enter_shimmed, leave_folder),
+		cmocka_unit_test_setup_teardown(
+			a_scancel_that_refuses_is_told, enter_shimmed, leave_folder),
 	};
 
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -68,7 +68,7 @@ static void defaults_are_those_of_the_granular_collapse(void **state)
 	assert_true(c.regularisation.strain_rate == 1e-5 && c.regularisation.velocity == 1e-5);
 	assert_true(c.time.end == 3 && c.time.cfl == 0.7);
 	assert_int_equal(c.time.wave_speed, WAVE_SPEED_FASTEST);
-	assert_int_equal(c.scheme.friction_reconstruction, RECONSTRUCTION_STATIC);
+	assert_int_equal(c.scheme.friction_reconstruction, RECONSTRUCTION_RESTING);
 	assert_int_equal(c.pressure_solver.method, METHOD_AUTO);
 	assert_int_equal(c.pressure_solver.operator_, OPERATOR_SYMMETRIC);
 	assert_int_equal(c.pressure_solver.start, START_ZERO);

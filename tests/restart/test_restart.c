@@ -83,18 +83,6 @@ static long row_at(const struct dataset *times, double t)
 	return -1;
 }
 
-static struct dataset read_dataset(const char *name, const char *path)
-{
-	struct run_file *file = open_run(name);
-	struct dataset data;
-	struct error err = {0};
-
-	if (run_file_dataset(file, path, &data, &err) != 0)
-		fail_msg("%s", err.text);
-	run_file_close(file);
-	return data;
-}
-
 /* Every row of the sparse dataset is a row of the dense one, bit by bit. */
 static void assert_rows_within(
 	const char *sparse, const char *dense, const char *axis, const char *path)

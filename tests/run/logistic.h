@@ -294,6 +294,18 @@ static inline struct run_file *open_run(const char *name)
 	return file;
 }
 
+static inline struct dataset read_dataset(const char *name, const char *path)
+{
+	struct run_file *file = open_run(name);
+	struct dataset data;
+	struct error err = {0};
+
+	if (run_file_dataset(file, path, &data, &err) != 0)
+		fail_msg("%s", err.text);
+	run_file_close(file);
+	return data;
+}
+
 static inline void assert_same_bits(const char *a, const char *b)
 {
 	struct run_file *first = open_run(a), *second = open_run(b);

@@ -3,18 +3,6 @@
 
 #include "run/history.h"
 
-static struct dataset read_dataset(const char *name, const char *path)
-{
-	struct run_file *file = open_run(name);
-	struct dataset data;
-	struct error err = {0};
-
-	if (run_file_dataset(file, path, &data, &err) != 0)
-		fail_msg("%s", err.text);
-	run_file_close(file);
-	return data;
-}
-
 /* Slopes of `v(t)` given step by step, with NaN before `clean`. */
 static double slope_at_end(double (*v)(double), double dt, int steps, double clean)
 {

@@ -247,6 +247,17 @@ static void the_content_of_a_run_makes_sense(void **state)
 	run_file_close(file);
 }
 
+/* Put these bytes of a run file in its place, under a trailer with this summary and the right digest. */
+static void put_sealed(const struct run_summary *summary, unsigned char *bytes, size_t size)
+{
+	const struct file_place place = {.folder = in_folder("a"), .name = "run.h5"};
+	const struct file_part part = {bytes, size};
+	struct error err = {0};
+
+	trailer_write(summary, bytes, size - TRAILER_SIZE, bytes + size - TRAILER_SIZE);
+	assert_int_equal(file_replace(&place, &part, 1, &err), 0);
+}
+
 /* Change one value and make the digest right again. */
 static void forge(const char *path, size_t index, double value)
 {
@@ -254,7 +265,6 @@ static void forge(const char *path, size_t index, double value)
 	struct dataset data;
 	struct error err = {0};
 	unsigned char *bytes, *at;
-	const struct file_place place = {.folder = in_folder("a"), .name = "run.h5"};
 	size_t size;
 
 	assert_int_equal(run_file_dataset(file, path, &data, &err), 0);
@@ -262,10 +272,7 @@ static void forge(const char *path, size_t index, double value)
 	at = memmem(bytes, size, data.values, data.extent[0] * sizeof *data.values);
 	assert_non_null(at);
 	memcpy(at + index * sizeof value, &value, sizeof value);
-	size -= TRAILER_SIZE;
-	trailer_write(run_file_summary(file), bytes, size, bytes + size);
-	assert_int_equal(
-		file_replace(&place, &(struct file_part){bytes, size + TRAILER_SIZE}, 1, &err), 0);
+	put_sealed(run_file_summary(file), bytes, size);
 	free(bytes);
 	free(data.values);
 	run_file_close(file);
@@ -294,7 +301,6 @@ static void time_that_does_not_grow_is_found(void **state)
 
 static void a_trailer_that_tells_otherwise_is_found(void **state)
 {
-	const struct file_place place = {.folder = in_folder("a"), .name = "run.h5"};
 	struct run_summary summary;
 	struct error err = {0};
 	unsigned char *bytes;
@@ -307,10 +313,7 @@ static void a_trailer_that_tells_otherwise_is_found(void **state)
 	summary.step++;
 	summary.time = 0.05;
 	summary.status = RUN_FAILED;
-	size -= TRAILER_SIZE;
-	trailer_write(&summary, bytes, size, bytes + size);
-	assert_int_equal(
-		file_replace(&place, &(struct file_part){bytes, size + TRAILER_SIZE}, 1, &err), 0);
+	put_sealed(&summary, bytes, size);
 	free(bytes);
 	assert_breach("status: is 'complete' and the trailer says 'failed'");
 	assert_breach("/checkpoint/step: is ");

@@ -1,15 +1,7 @@
 /* Tables from run files made by hand: values, repeats, blanks, what is missing, formats, refusals. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
-#include <cmocka.h>
+#include "../base/folder.h"
 
 #include "base/file.h"
 #include "run/image.h"
@@ -23,35 +15,13 @@ static const char base[] = "slope: 22 deg\n"
 						   "time: {end: 0.3 s, cfl: 0.5}\n"
 						   "output: {profiles_at: [0.1 s, 0.3 s]}\n";
 
-static void write_file(const char *name, const char *text)
+/* With base.yaml in it. */
+static int enter_study(void **state)
 {
-	FILE *file = fopen(name, "w");
-
-	assert_non_null(file);
-	assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
-	assert_int_equal(fclose(file), 0);
-}
-
-static int enter_folder(void **state)
-{
-	char name[] = "/tmp/talus-test-XXXXXX";
-
-	if (!mkdtemp(name) || chdir(name))
+	if (enter_folder(state))
 		return -1;
-	*state = strdup(name);
 	write_file("base.yaml", base);
 	return 0;
-}
-
-static int leave_folder(void **state)
-{
-	char command[256];
-	int result;
-
-	(void)snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
-	result = chdir("/") || system(command); /* NOLINT(cert-env33-c): a folder of our own */
-	free(*state);
-	return result;
 }
 
 static struct experiment read_experiment(const char *text)
@@ -269,31 +239,24 @@ static void a_table_has_published_values_beside_ours(void **state)
 		make_run(&e.runs[i], &content);
 	}
 	assert_table(&e, "text",
-		"t: Ours and theirs (P1 Table 0)\n"
-		"\n"
-		"                  n_ini_guess 0                      n_ini_guess 10                    "
-		"n_ini_guess 4\n"
-		"        iterations     CPU s     speed-up  iterations     CPU s      speed-up   "
-		"iterations  "
-		"CPU s  speed-up\n"
+		"t: Ours and theirs (P1 Table 0)\n\n"
+		"                  n_ini_guess 0                      n_ini_guess 10                    n_ini_guess 4\n"
+		"        iterations     CPU s     speed-up  iterations     CPU s      speed-up   iterations  CPU s  speed-up\n"
 		"layers  ours    P1  ours     P1            ours    P1  ours     P1  ours    P1\n"
-		"---------------------------------------------------------------------------------------"
-		"--------------------\n"
+		"-----------------------------------------------------------------------------------------------------------\n"
 		"20       100   431  12.3  594.2      1.00   200    71  6.17  183.2  2.00  3.24\n"
-		"8        300        4.12             1.00                                              "
-		"400   "
-		"3.09      1.33\n" NOTES);
+		"8        300        4.12             1.00                                              400   3.09      1.33\n" NOTES);
 	experiment_clean(&e);
 }
 
 static void repeats_make_a_median_and_half_their_range(void **state)
 {
-	struct experiment e = read_experiment("title: Times\n"
-										  "base: base.yaml\n"
-										  "repeat: 3\n"
-										  "runs: [{layers: [4, 8]}]\n"
-										  "tables: [{name: t, rows: layers, metric: "
-										  "[iterations, cpu-seconds]}]\n");
+	struct experiment e =
+		read_experiment("title: Times\n"
+						"base: base.yaml\n"
+						"repeat: 3\n"
+						"runs: [{layers: [4, 8]}]\n"
+						"tables: [{name: t, rows: layers, metric: [iterations, cpu-seconds]}]\n");
 	static const double seconds[] = {10, 123.4, 30, 120.4, 12.5, 140.4};
 
 	(void)state;
@@ -328,8 +291,7 @@ static void a_metric_is_what_its_run_file_says(void **state)
 		"\n"
 		"slope                   steps  runout m  step 3 %  CPU ns/cell/layer/step  residual\n"
 		"-----------------------------------------------------------------------------------\n"
-		"0.3839724354387525 rad      7     1.250      50.0                53571429  "
-		"3.40e-09\n" NOTES);
+		"0.3839724354387525 rad      7     1.250      50.0                53571429  3.40e-09\n" NOTES);
 	experiment_clean(&e);
 }
 
@@ -339,8 +301,7 @@ static void differences_are_relative_to_the_mass_above_the_bed(void **state)
 		read_experiment("title: Errors\n"
 						"base: base.yaml\n"
 						"runs: [{layers: [8, 4]}]\n"
-						"tables: [{name: t, rows: layers, metric: [l1-difference, "
-						"l2-difference],\n"
+						"tables: [{name: t, rows: layers, metric: [l1-difference, l2-difference],\n"
 						"  reference: {layers: 8}, at: [0.1 s, 0.3 s]}]\n");
 	/* the bed is 1 m: reference 3, 4 above it; differences 1, 1 and then 0, 5 */
 	struct content reference = complete(1, 1), other = complete(1, 1);
@@ -365,9 +326,9 @@ static void differences_are_relative_to_the_mass_above_the_bed(void **state)
 static void errors_against_steady_profiles_have_orders_from_row_to_row(void **state)
 {
 	struct experiment experiment = read_experiment(
-		"base: base.yaml\nruns: [{layers: [2, 4, 8]}]\n"
-		"tables: [{name: t, rows: layers, metric: [velocity-l1, velocity-l1-order, velocity-linf, "
-		"velocity-l2-order]}]\n");
+		"base: base.yaml\n"
+		"runs: [{layers: [2, 4, 8]}]\n"
+		"tables: [{name: t, rows: layers, metric: [velocity-l1, velocity-l1-order, velocity-linf, velocity-l2-order]}]\n");
 	const double errors[] = {0x1p-4, 0x1p-7, 0x1p-9};
 
 	(void)state;
@@ -392,12 +353,11 @@ static void errors_against_steady_profiles_have_orders_from_row_to_row(void **st
  * the cells and all layers, and 1.5 and 3.5 of h. */
 static void errors_against_a_finer_run_are_those_of_its_means(void **state)
 {
-	struct experiment experiment =
-		read_experiment("base: base.yaml\n"
-						"runs: [{zip: {domain.cells: [2, 4, 4], layers: [1, 2, 4]}}]\n"
-						"tables: [{name: t, rows: [domain.cells, layers], reference: "
-						"{domain.cells: 4, layers: 4},\n"
-						"  metric: [h-l1, h-l1-order, u-l1, u-l1-order]}]\n");
+	struct experiment experiment = read_experiment(
+		"base: base.yaml\n"
+		"runs: [{zip: {domain.cells: [2, 4, 4], layers: [1, 2, 4]}}]\n"
+		"tables: [{name: t, rows: [domain.cells, layers], reference: {domain.cells: 4, layers: 4},\n"
+		"  metric: [h-l1, h-l1-order, u-l1, u-l1-order]}]\n");
 	struct content coarse = complete(1, 1), finer = complete(1, 1), reference = complete(1, 1);
 
 	(void)state;
@@ -428,11 +388,12 @@ static void errors_against_a_finer_run_are_those_of_its_means(void **state)
 /* The bed is 1 m thick; fronts at 1.25 and 1.5 m; u is 2 and 5 m/s in the cell at 2 m. */
 static void a_deposit_is_told_by_its_height_its_growth_and_its_velocities(void **state)
 {
-	struct experiment experiment =
-		read_experiment("base: base.yaml\nset: {layers: 2}\nruns: [{slope: [1 deg, 2 deg]}]\n"
-						"tables: [{name: t, rows: slope, reference: {slope: 1 deg}, at: 0.3 s, "
-						"at_x: [2.4 m, 1 m],\n"
-						"  metric: [deposit-height, runout-change, mean-velocity]}]\n");
+	struct experiment experiment = read_experiment(
+		"base: base.yaml\n"
+		"set: {layers: 2}\n"
+		"runs: [{slope: [1 deg, 2 deg]}]\n"
+		"tables: [{name: t, rows: slope, reference: {slope: 1 deg}, at: 0.3 s, at_x: [2.4 m, 1 m],\n"
+		"  metric: [deposit-height, runout-change, mean-velocity]}]\n");
 	struct content first = complete(1, 1), second = complete(1, 1);
 
 	(void)state;
@@ -480,12 +441,11 @@ static void a_place_outside_the_domain_is_refused(void **state)
 
 static void a_reference_whose_grid_does_not_fit_is_refused(void **state)
 {
-	struct experiment experiment =
-		read_experiment("base: base.yaml\n"
-						"runs: [{zip: {domain.cells: [4, 3, 2, 2], layers: [4, 2, 8, 2]}}]\n"
-						"tables: [{name: t, rows: [domain.cells, layers], reference: "
-						"{domain.cells: 4, layers: 4},\n"
-						"  metric: [u-l1, u-l1-order]}]\n");
+	struct experiment experiment = read_experiment(
+		"base: base.yaml\n"
+		"runs: [{zip: {domain.cells: [4, 3, 2, 2], layers: [4, 2, 8, 2]}}]\n"
+		"tables: [{name: t, rows: [domain.cells, layers], reference: {domain.cells: 4, layers: 4},\n"
+		"  metric: [u-l1, u-l1-order]}]\n");
 
 	(void)state;
 	for (size_t i = 0; i < experiment.run_count; i++) {
@@ -494,8 +454,8 @@ static void a_reference_whose_grid_does_not_fit_is_refused(void **state)
 		content.left = i == 3 ? 0.25 : 0;
 		make_run(&experiment.runs[i], &content);
 	}
-	assert_missing(&experiment, ": u-l1: 3 cells and 2 layers here do not divide the 4 and 4 of "
-								"the reference\n");
+	assert_missing(&experiment,
+		": u-l1: 3 cells and 2 layers here do not divide the 4 and 4 of the reference\n");
 	assert_missing(&experiment, ": u-l1: 2 cells and 8 layers here do not divide");
 	assert_missing(&experiment, ": u-l1: the reference has another domain\n");
 	experiment_clean(&experiment);
@@ -521,8 +481,8 @@ static void numbers_of_series_are_those_of_the_whole_run(void **state)
 {
 	struct experiment experiment = read_experiment(
 		"base: base.yaml\nruns: [{layers: [2, 4]}]\n"
-		"tables: [{name: t, rows: layers, reference: {layers: 2}, metric: [final-max-speed, "
-		"half-speed-time, transfer-sign-change, solid-mass-drift, speed-difference]}]\n");
+		"tables: [{name: t, rows: layers, reference: {layers: 2},\n"
+		"  metric: [final-max-speed, half-speed-time, transfer-sign-change, solid-mass-drift, speed-difference]}]\n");
 	struct content first = complete(1, 1), second = complete(1, 1);
 
 	(void)state;
@@ -537,17 +497,17 @@ static void numbers_of_series_are_those_of_the_whole_run(void **state)
 		"layers  v max m/s  v max/2 at s  G_f changes sign at s  mass drift 1e-12  v max apart %\n"
 		"---------------------------------------------------------------------------------------\n"
 		"2            4.00         0.200                 0.0500            3.6380          0.000\n"
-		"4            5.00         0.200                 0.0500            3.6380         "
-		"25.000\n" NOTES);
+		"4            5.00         0.200                 0.0500            3.6380         25.000\n" NOTES);
 	experiment_clean(&experiment);
 }
 
 static void mass_drifts_by_what_did_not_leave_and_fronts_begin_after_the_release(void **state)
 {
-	struct experiment experiment =
-		read_experiment("base: base.yaml\nruns: [{layers: 2}]\ntables: [{name: t, rows: layers, "
-						"metric: [mass-drift, "
-						"first-front-velocity, front-velocity, front-velocity-time]}]\n");
+	struct experiment experiment = read_experiment(
+		"base: base.yaml\n"
+		"runs: [{layers: 2}]\n"
+		"tables: [{name: t, rows: layers, metric: [mass-drift, first-front-velocity, front-velocity,\n"
+		"  front-velocity-time]}]\n");
 	struct content content = complete(1, 1);
 
 	(void)state;
@@ -649,8 +609,7 @@ static void labels_are_numbers_to_programs_where_they_share_a_unit(void **state)
 		"title: Units\n"
 		"base: base.yaml\n"
 		"runs: [{slope: [0 deg, 22.5 deg], erodible_bed_thickness: [1 mm, 2 cm], layers: [4]}]\n"
-		"tables: [{name: t, rows: [slope, erodible_bed_thickness, layers, pressure], metric: "
-		"runout}]\n");
+		"tables: [{name: t, rows: [slope, erodible_bed_thickness, layers, pressure], metric: runout}]\n");
 	struct content content = complete(1, 9);
 	struct text missing;
 	char *text;
@@ -717,8 +676,7 @@ static void latex_and_json_survive_their_own_marks(void **state)
 	assert_string_equal(text,
 		"% \\usepackage{booktabs}\n"
 		"\\begin{table}\n\\centering\n"
-		"\\caption{t\\_1: Marks \\textbackslash{} \\textasciicircum{} \\textasciitilde{} \\# \\$ "
-		"\\% \\& "
+		"\\caption{t\\_1: Marks \\textbackslash{} \\textasciicircum{} \\textasciitilde{} \\# \\$ \\% \\& "
 		"\\_ \\{ \\} \"\\textless{}\\textdegree{}\\textgreater{} (A\\textbar{}B)}\n"
 		"\\label{tab:t-1}\n"
 		"\\begin{tabular}{lrrr}\n\\toprule\n"
@@ -764,9 +722,12 @@ static void errors_against_observations_are_relative_to_what_moved(void **state)
 	(void)state;
 	memcpy(content.h, (double[2][4]){{3, 5, 1, 1}, {1, 1, 1, 1}}, sizeof content.h);
 	make_run(&e.runs[0], &content);
-	write_file("h.csv",
-		"\xEF\xBB\xBF# measured\r\n\r\n time [ms] , \"x\" ,h [cm]\r\n100,0.5,400\r\n 100,2 , "
-		"\"200\"\r\n300,0,\r\n");
+	write_file("h.csv", "\xEF\xBB\xBF# measured\r\n"
+						"\r\n"
+						" time [ms] , \"x\" ,h [cm]\r\n"
+						"100,0.5,400\r\n"
+						" 100,2 , \"200\"\r\n"
+						"300,0,\r\n");
 	write_file("front.csv", "time,front_position [cm]\n0.15,60\n0.3,125");
 	/* weights are equal: sqrt(0 + 1) / sqrt(9 + 1), and 0.1 / sqrt(0.36 + 1.5625) */
 	assert_table(&e, "csv",
@@ -784,8 +745,8 @@ static void bad_observations_are_refused_with_their_place(void **state)
 		{"# only\n", "h.csv:2:1: holds no values: a line that names its columns is wanted first"},
 		{"time,x,h\n", "h.csv:2:1: holds no values below the names of its columns"},
 		{"t,x,h\n", "h.csv:1:1: a column 'time' is wanted: the first line names the columns"},
-		{"time,x\n", "h.csv:1:1: a column of values is wanted beside time and x, named like a "
-					 "dataset of the run files: h, front_position"},
+		{"time,x\n", "h.csv:1:1: a column of values is wanted beside time and x, "
+					 "named like a dataset of the run files: h, front_position"},
 		{"time,x,h,h\n", "h.csv:1:10: column 'h' stands here twice"},
 		{"time,,h\n", "h.csv:1:6: the name of a column is wanted here"},
 		{"time,x,h [inch]\n", "h.csv:1:11: unknown unit 'inch'"},
@@ -844,7 +805,7 @@ static void only_chooses_runs_by_value_however_written(void **state)
 	experiment_clean(&e);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, enter_folder, leave_folder)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, enter_study, leave_folder)
 
 int main(void)
 {
