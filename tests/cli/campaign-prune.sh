@@ -33,6 +33,8 @@ ls results/study | mask
 echo "-- answers on a terminal"
 talus campaign run other.yaml -o results/study >/dev/null
 for answer in n y; do
-	echo $answer | script -qec 'talus campaign prune study.yaml' /dev/null | tr -d '\r' | tail -n 1
+	# the terminal echoes the answer before or after the question
+	echo $answer | script -qec 'talus campaign prune study.yaml' /dev/null | tr -d '\r\n' |
+		sed -E 's/.*(remove them\? \[y\/N\]) [ny]?/\1 /; s/ ?$/\n/'
 	ls results/study | grep -c layers
 done
