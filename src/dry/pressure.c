@@ -96,6 +96,17 @@ static void start(const struct model_state *s, struct pressure_system *system)
 	}
 }
 
+/* What may help where the solver stopped after so many iterations. A residual that no longer falls has come
+ * to rounding, which layers of very different thickness reach early. */
+static const char *hint(const struct model_state *s, int iterations)
+{
+	if (!isfinite(s->residual))
+		return s->remedy;
+	if (s->rule.criterion == CRITERION_RESIDUAL && iterations < s->rule.max_iterations)
+		return "rounding allows no less: a larger pressure_solver.residual may carry it";
+	return "";
+}
+
 static int solve(
 	struct model_state *s, struct projection *problem, int *iterations, struct error *err)
 {
@@ -106,13 +117,14 @@ static int solve(
 	if (done >= 0)
 		return 0;
 	double x = s->grid.x_min + pressure_system_worst_face(&problem->system) * s->grid.dx;
+	const char *help = hint(s, *iterations);
 
 	return error_set(err, EX_FAILED,
 		"the pressure solver (%s, %d layers) did not converge at x = %g m: %s after %d iterations, "
 		"relative residual %.1e%s%s",
 		s->solver->name, problem->layers, round(1e6 * x) / 1e6 + 0.0, /* no -5e-17, no -0 */
-		isfinite(s->residual) ? "stopped" : "not a number", -done, s->residual,
-		isfinite(s->residual) ? "" : "; ", isfinite(s->residual) ? "" : s->remedy);
+		isfinite(s->residual) ? "stopped" : "not a number", -done, s->residual, *help ? "; " : "",
+		help);
 }
 
 int dry_pressure(struct model_state *s, double dt, struct error *err)

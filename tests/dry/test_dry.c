@@ -681,7 +681,31 @@ static void a_solver_that_does_not_converge_ends_the_step(void **state)
 	assert_non_null(strstr(err.text,
 		"the pressure solver (block-gauss-seidel, 4 layers) did not converge at x = 0 m: "
 		"stopped after 2 iterations, relative residual "));
+	assert_null(strstr(err.text, "rounding"));
 	dry_model.free(s);
+}
+
+static void layers_too_thin_for_the_residual_ask_for_a_larger_one(void **state)
+{
+	static const char *const thin[] = {"layers=10", "pressure_solver.residual=1e-12",
+		"layer_fractions=[1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 0.999991]"};
+	int failed[2];
+
+	(void)state;
+	for (int i = 0; i < 2; i++) {
+		struct config config = read_config(thin, 3);
+		struct error err = {0};
+		struct model_state *s;
+
+		if (i == 1)
+			config.pressure_solver.residual = 1e-6;
+		s = create(&config);
+		failed[i] = dry_model.step(s, 1e-3, &err);
+		assert_true(i == 1 || strstr(err.text, "a larger pressure_solver.residual may carry it"));
+		dry_model.free(s);
+	}
+	assert_int_equal(failed[0], -1);
+	assert_int_equal(failed[1], 0);
 }
 
 static void numbers_that_are_no_flow_end_the_step_and_say_where(void **state)
@@ -831,6 +855,7 @@ int main(void)
 		cmocka_unit_test(two_runs_have_the_same_bits),
 		cmocka_unit_test(the_arrays_are_the_whole_state),
 		cmocka_unit_test(a_solver_that_does_not_converge_ends_the_step),
+		cmocka_unit_test(layers_too_thin_for_the_residual_ask_for_a_larger_one),
 		cmocka_unit_test(numbers_that_are_no_flow_end_the_step_and_say_where),
 		cmocka_unit_test(energy_from_nowhere_is_doubted_and_much_of_it_ends_the_step),
 		cmocka_unit_test(a_hydrostatic_run_has_no_fluctuation_and_a_diagnosed_w),
