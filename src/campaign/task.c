@@ -250,7 +250,7 @@ bool task_reap(const struct campaign *campaign, struct task *task)
 		task->state = TASK_INTERRUPTED;
 	else
 		task->state = TASK_FAILED;
-	if (task->timed_out) {
+	if (task->timed_out && task->state != TASK_COMPLETE) {
 		char span[CLOCK_SPAN_SIZE];
 
 		(void)snprintf(task->report.reason, sizeof task->report.reason,

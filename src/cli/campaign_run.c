@@ -199,6 +199,9 @@ static int tell_result(const struct campaign *campaign)
 		else if (campaign->tasks[i].timed_out && campaign->tasks[i].state == TASK_INTERRUPTED)
 			(void)fprintf(stderr, "talus: run %s: %s at t = %g s\n", campaign->tasks[i].run->id,
 				campaign->tasks[i].report.reason, campaign->tasks[i].report.time);
+		else if (campaign->tasks[i].state == TASK_COMPLETE && *campaign->tasks[i].report.reason)
+			(void)fprintf(stderr, "talus: warning: run %s: %s\n", campaign->tasks[i].run->id,
+				campaign->tasks[i].report.reason);
 	if (campaign->fault.code)
 		(void)fprintf(stderr, "talus: %s; nothing more was started, and the same command goes on\n",
 			error_format(&campaign->fault, message, sizeof message));

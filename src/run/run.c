@@ -48,10 +48,10 @@ static int prepare(
 	return checkpoint_write(attempt, RUN_UNFINISHED, err);
 }
 
-static void tell_doubt(const struct attempt *attempt)
+/* What is doubtful in the run, if anything is, also into `doubt`. */
+static void tell_doubt(const struct attempt *attempt, char doubt[MODEL_DOUBT_SIZE])
 {
-	char doubt[MODEL_DOUBT_SIZE];
-
+	*doubt = '\0';
 	if (!attempt->state || !attempt->model->doubt || !attempt->model->doubt(attempt->state, doubt))
 		return;
 	attempt_say(attempt, RUN_VOICE_WARNING, "%s: %s", attempt->folder, doubt);
@@ -69,7 +69,7 @@ static int conclude(struct attempt *attempt, int result, struct error *err)
 
 	attempt_say(attempt, RUN_VOICE_PROGRESS, "%s", "");
 	if (state != RUN_STATE_FAILED)
-		tell_doubt(attempt);
+		tell_doubt(attempt, reason);
 	if (result != 0)
 		(void)error_format(err, reason, sizeof reason);
 	if (state == RUN_STATE_FAILED && checkpoint_fail(attempt, reason, &second) != 0) {

@@ -20,5 +20,18 @@ talus info faster | grep -E '^  (status|reason)' | numbers
 run doubtful "${safe[@]}" --set time.cfl=0.5 --set pressure=hydrostatic
 grep warning doubtful/run.log | numbers | clocks
 talus info doubtful | grep -E '^  (status|energy-rise)' | sed -E 's/0\.[0-9]+$/0.N/'
+# a campaign says it, too, and its status keeps it
+cat >rough.yaml <<EOF
+base: $TALUS_ROOT/configs/granular-collapse.yaml
+set:
+  topography.shape: random
+  domain.cells: 160
+  time: {end: 1 s, cfl: 0.5, wave_speed: fastest}
+  scheme: {friction_reconstruction: static, exchange: upwind}
+  output.profiles_at: []
+runs: [{pressure: hydrostatic}]
+EOF
+talus campaign run rough.yaml 2>&1 | grep warning | numbers | sed -E 's/[0-9a-f]{8}:/HASH:/'
+talus campaign status rough.yaml --json | grep -o '"reason": "the energy rose'
 run carried "${safe[@]}" --set time.cfl=0.1 --set layers=2
 talus verify plain faster doubtful carried | grep -c ': good'
