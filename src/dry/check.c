@@ -113,11 +113,13 @@ int dry_check(struct model_state *s, struct error *err)
 
 bool dry_doubt(const struct model_state *s, char text[MODEL_DOUBT_SIZE])
 {
+	double percent = 100 * s->energy.rise / s->energy.first;
+
 	if (!(s->energy.rise > DOUBTFUL_RISE * s->energy.first))
 		return false;
 	(void)snprintf(text, MODEL_DOUBT_SIZE,
-		"the energy rose by %.2g %% of what it was at the beginning, and friction only takes from "
+		"the energy rose by %.*f %% of what it was at the beginning, and friction only takes from "
 		"it (P1 Theorem 1): these numbers are in doubt; %s",
-		100 * s->energy.rise / s->energy.first, s->remedy);
+		percent < 10 ? 1 : 0, percent, s->remedy);
 	return true;
 }
