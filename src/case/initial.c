@@ -234,8 +234,9 @@ static int check_grains(const struct grid *grid, const double *h, struct error *
 	}
 	if (most > 0)
 		return 0;
-	return error_set(
-		err, EX_DATAERR, "initial: there are no grains between domain.x_min and domain.x_max");
+	return error_set(err, EX_DATAERR,
+		"initial: there are no grains in any of the %d cells between domain.x_min and domain.x_max",
+		grid->cells);
 }
 
 int initial_fill(
