@@ -291,7 +291,8 @@ static void a_large_delta_takes_no_flow_for_rest(void **state)
 
 	(void)state;
 	for (int i = 0; i < 2; i++) {
-		const char *const settings[] = {kinds[i], "slope=0 deg", "regularisation.velocity=1e-2 m/s"};
+		const char *const settings[] = {
+			kinds[i], "slope=0 deg", "regularisation.velocity=1e-2 m/s"};
 		struct config config = read_config(settings, 3);
 		struct model_state *s = create(&config);
 
