@@ -228,8 +228,8 @@ static const struct field fields[] = {
 	CHOICE("scheme.friction_reconstruction", scheme.friction_reconstruction, DRY, "resting",
 		reconstructions,
 		"where friction balances the slope in P1 (21): resting: only at rest, and nothing passes between cells at "
-		"rest (below the angle of repose, slower than 100 delta), so that heaps keep their shape; static: only at "
-		"rest; printed: also in motion"),
+		"rest (below the angle of repose, slower than 100 delta and 1 mm/s), so that heaps keep their shape; "
+		"static: only at rest; printed: also in motion"),
 	CHOICE("scheme.exchange", scheme.exchange, DRY, "mean", exchanges,
 		"velocity of what two layers exchange: the mean of both (P1), or of the layer that gives (upwind), which "
 		"hydrostatic layers need to survive a bore"),
