@@ -73,7 +73,9 @@ $(BUILD)/flags: FORCE
 # What a run file says about its build. Only this object is made again when the revision changes.
 $(BUILD)/src/base/build.o: private DEFINES = -DTALUS_REVISION='"$(REVISION)"' -DTALUS_FLAGS='"$(strip $(OPT) $(CFLAGS))"'
 $(BUILD)/src/base/build.o: $(BUILD)/revision
-REVISION = $(eval REVISION := $(shell git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown))$(REVISION)
+# what `make paper` writes into results/ does not make the program another
+REVISION = $(eval REVISION := $(shell git describe --always --abbrev=12 2>/dev/null || echo unknown)$(shell \
+	git diff --quiet HEAD -- . ':!results' 2>/dev/null; [ $$? != 1 ] || echo -dirty))$(REVISION)
 $(BUILD)/revision: FORCE
 	@mkdir -p $(@D)
 	@echo '$(REVISION)' | cmp -s - $@ || echo '$(REVISION)' > $@

@@ -30,9 +30,11 @@
 #define DRY_NO_PRESSURE 1e-5  /* faces next to thinner cells have no non-hydrostatic pressure */
 
 /* Grains are at rest on slopes of up to mu_s (exactly 1 would lose those at the limit) while they are
- * slower than so many delta: what moves then is the regularisation. */
+ * slower than so many delta: what moves then is the regularisation. With a large delta that would be a
+ * flow, and nothing is held that is as fast as this. */
 #define DRY_REST_SLOPE (1 + 1e-9)
 #define DRY_REST_SPEED 100
+#define DRY_HELD_SPEED 1e-3 /* m/s */
 
 /* Constants of a run. */
 struct dry_parameters {

@@ -8,9 +8,6 @@
 /* |d eta/dx| up to this times mu is at rest: exactly 1 would lose slopes that are at the limit. */
 #define REST_MARGIN 1.001
 
-/* 100 times the default delta, m/s: with a large delta, grains as slow as DRY_REST_SPEED of it may flow. */
-#define REST_SPEED_MOST 1e-3
-
 enum { ROW = CHUNK_CELLS + 4 };
 
 /* A chunk sees two cells more on either side, as far as there are any: the face at its end may be
@@ -130,13 +127,12 @@ KERNEL_PART void find_rest(
 	const double *restrict b_i = s->b + r->first, *restrict b_j = b_i + 1;
 	const double *restrict u_i = s->fastest + r->first, *restrict u_j = u_i + 1;
 	bool rests = s->par.reconstruction == RECONSTRUCTION_RESTING;
-	double creep = smaller(DRY_REST_SPEED * s->par.delta_velocity, REST_SPEED_MOST);
-	double slow = rests ? creep : -1; /* never, where below 0 */
+	double slow = smaller(DRY_REST_SPEED * s->par.delta_velocity, DRY_HELD_SPEED);
 	double limit = s->par.mu_s * s->grid.dx * DRY_REST_SLOPE;
 
 	for (int f = 0; f < r->faces; f++) {
 		double jump = b_j[f] - b_i[f] + plane[f] + h_j[f] - h_i[f];
-		int still = (int)(fabs(jump) <= limit) & (int)(larger(u_i[f], u_j[f]) < slow);
+		int still = (int)rests & (int)(fabs(jump) <= limit) & (int)(larger(u_i[f], u_j[f]) < slow);
 
 		r->moves[f] = still ? 0 : 1;
 	}
