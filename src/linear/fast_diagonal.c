@@ -96,8 +96,8 @@ int fast_diagonal_init(struct fast_diagonal *fast, int layers, int faces, bool p
 	const double *shares, struct error *err)
 {
 	size_t half = fast_diagonal_half(layers);
-	size_t square = half * half, row = (size_t)faces + 1, all, seam = periodic ? 2 * half : 0;
-	size_t any = shares ? 2 * half : 0;
+	size_t square = shares ? 0 : half * half, any = shares ? 2 * half : 0;
+	size_t row = (size_t)faces + 1, all, seam = periodic ? 2 * half : 0;
 
 	*fast = (struct fast_diagonal){
 		.columns = columns_make(layers, faces), .half = half, .unequal = shares != NULL};
