@@ -30,15 +30,27 @@ static double height(const struct model_state *s, int i)
 	return (end - grid_centre(&s->grid, i)) * s->par.tan_slope + s->b[i];
 }
 
-/* P1 Theorem 1 times rho, counted from the lowest point of the bed: never negative, J/m. */
+double dry_energy(const struct model_state *s, double base, double *kinetic)
+{
+	double sum = 0, scale = s->par.rho * s->grid.dx;
+
+	*kinetic = 0;
+	for (int i = 1; i <= s->grid.cells; i++) {
+		double moving = 0.5 * s->squares[i] / s->layers;
+
+		sum += s->h[i] * (moving + s->par.gc * (height(s, i) - base + 0.5 * s->h[i]));
+		*kinetic += s->h[i] * moving;
+	}
+	*kinetic *= scale;
+	return scale * sum;
+}
+
+/* From the lowest point of the bed, where it is never negative. */
 static double energy(const struct model_state *s)
 {
-	double sum = 0;
+	double kinetic;
 
-	for (int i = 1; i <= s->grid.cells; i++)
-		sum += s->h[i] * (0.5 * s->squares[i] / s->layers +
-							 s->par.gc * (height(s, i) - s->energy.base + 0.5 * s->h[i]));
-	return s->par.rho * s->grid.dx * sum;
+	return dry_energy(s, s->energy.base, &kinetic);
 }
 
 /* How steeply the bed falls inwards before an open end, by a tenth of the domain. */

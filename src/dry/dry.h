@@ -223,6 +223,9 @@ void dry_note_remedy(struct model_state *s, const struct config *config);
 void dry_check_begin(struct model_state *s, const struct config *config);
 void dry_check_again(struct model_state *s);
 
+/* P1 Theorem 1 times rho, summed over the domain and counted from `base` above the right end of the plane, J/m. */
+double dry_energy(const struct model_state *s, double base, double *kinetic);
+
 /* EX_FAILED where the numbers of the last step are no longer a flow. */
 int dry_check(struct model_state *s, struct error *err);
 

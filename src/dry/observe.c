@@ -172,24 +172,6 @@ static double front(const struct model_state *s)
 	return grid_centre(&s->grid, i) + s->grid.dx * (h[i] - level) / (h[i] - h[i + 1]);
 }
 
-/* P1 Theorem 1 summed over the domain, times rho: J/m. */
-static void energies(const struct model_state *s, double *values)
-{
-	double sum = 0, kinetic = 0, end = s->grid.x_min + s->grid.cells * s->grid.dx;
-	double scale = s->par.rho * s->grid.dx;
-
-	for (int i = 1; i <= s->grid.cells; i++) {
-		double plane = (end - grid_centre(&s->grid, i)) * s->par.tan_slope;
-		double moving = 0.5 * s->squares[i] / s->layers;
-
-		sum += s->h[i] * (moving + s->par.gc * (plane + s->b[i] + 0.5 * s->h[i]));
-		kinetic += s->h[i] * moving;
-	}
-	values[ENERGY] = scale * sum;
-	values[KINETIC_ENERGY] = scale * kinetic;
-	values[POTENTIAL_ENERGY] = values[ENERGY] - values[KINETIC_ENERGY];
-}
-
 /* P3 (53) over the layers of a cell, weighted by their thickness. */
 static double bagnold_error(const struct model_state *s, int i)
 {
@@ -219,7 +201,8 @@ void dry_observe(const struct model_state *s, double *values)
 	values[MAX_THICKNESS] = thickest;
 	values[MASS] = s->par.rho * s->grid.dx * mass;
 	values[MASS_OUTFLOW] = s->mass[1];
-	energies(s, values);
+	values[ENERGY] = dry_energy(s, 0, &values[KINETIC_ENERGY]);
+	values[POTENTIAL_ENERGY] = values[ENERGY] - values[KINETIC_ENERGY];
 	values[PRESSURE_ITERATIONS] = s->iterations;
 	values[COARSE_ITERATIONS] = s->coarse_iterations;
 	values[PRESSURE_RESIDUAL] = s->residual;

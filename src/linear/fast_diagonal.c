@@ -23,9 +23,6 @@ static void fill_modes(struct fast_diagonal *fast)
 	size_t n = (size_t)fast->columns.layers, half = fast->half;
 	long double step = acosl(-1) / (long double)n, scale = sqrtl(2 / (long double)n);
 
-	fast->middle = ((double)n - 1) / 2;
-	fast->spread = ((double)n * (double)n - 1) / 12;
-
 	for (size_t m = 0; m < 2 * half; m++)
 		fast->of_stretch[m] = fast->of_mean[m] = 1;
 	for (size_t m = 0; m < (n + 1) / 2; m++) {
@@ -43,22 +40,6 @@ static void fill_modes(struct fast_diagonal *fast)
 			fast->to_layers[a % 2][m * half + a / 2] = value;
 		}
 	}
-}
-
-/* Mean and variance of the places (pressure_system.h). */
-static void fill_places(struct fast_diagonal *fast, const double *shares)
-{
-	double n = fast->columns.layers, below = 0, sum = 0, squares = 0;
-
-	for (int a = 0; a < fast->columns.layers; a++) {
-		double place = below + 0.5 * (shares[a] - 1);
-
-		sum += place;
-		squares += place * place;
-		below += shares[a];
-	}
-	fast->middle = sum / n;
-	fast->spread = squares / n - fast->middle * fast->middle;
 }
 
 /* Those of unequal layers. */
@@ -87,7 +68,6 @@ static int find_modes(struct fast_diagonal *fast, const double *shares, struct e
 			fast->any_to_layers[at * fast->columns.stride + a] = value;
 		}
 	}
-	fill_places(fast, shares);
 	free(block);
 	return failed;
 }
@@ -132,12 +112,21 @@ void fast_diagonal_prepare(struct fast_diagonal *fast, const struct pressure_sys
 	const struct pressure_cells *cells = &system->cells;
 	double *kd = fast->bands[0], *md = fast->bands[1], *ko = fast->bands[2], *mo = fast->bands[3];
 	double k_before = 0, m_before = 0; /* of the cell before the face */
+	double mean = 0,
+		   spread = 0; /* of the places of the layers; sums that are exact of equal ones */
+
+	for (int a = 0; a < system->layers; a++)
+		mean += cells->place[a];
+	mean /= system->layers;
+	for (int a = 0; a < system->layers; a++)
+		spread += (cells->place[a] - mean) * (cells->place[a] - mean);
+	spread /= system->layers;
 
 	for (int f = 0; f < system->faces; f++) {
-		double lean = cells->lean[f + 1], middle = cells->tilt[f + 1] + lean * fast->middle;
+		double lean = cells->lean[f + 1], middle = cells->tilt[f + 1] + lean * mean;
 		double k = cells->stretch[f + 1];
-		double m = (cells->quarter_nn + middle * middle + lean * lean * fast->spread) *
-				   cells->inverse[f + 1];
+		double m =
+			(cells->quarter_nn + middle * middle + lean * lean * spread) * cells->inverse[f + 1];
 		bool dry = cells->dry[f], apart = dry || (f > 0 && cells->dry[f - 1]);
 
 		kd[f] = dry ? 1 : k_before + k;

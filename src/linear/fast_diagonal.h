@@ -27,12 +27,11 @@ struct fast_diagonal {
 	/* Of unequal layers, else without elements: [layers][2 half] and [2 half][stride]. */
 	bool unequal;
 	float *any_to_modes, *any_to_layers;
-	double *of_stretch;    /* [2 half], 2 + 2 cos t_m; 1 in the padding */
-	double *of_mean;       /* [2 half], 2 - 2 cos t_m; 1 in the padding */
-	double middle, spread; /* mean and variance of the places of the layers */
-	double *kept;          /* [2 half], 1; 0 in the padding */
-	float *multiplier;     /* columns of modes: L of the L D L^T of each tridiagonal system */
-	float *inverse;        /* columns of modes: 1/D */
+	double *of_stretch; /* [2 half], 2 + 2 cos t_m; 1 in the padding */
+	double *of_mean;    /* [2 half], 2 - 2 cos t_m; 1 in the padding */
+	double *kept;       /* [2 half], 1; 0 in the padding */
+	float *multiplier;  /* columns of modes: L of the L D L^T of each tridiagonal system */
+	float *inverse;     /* columns of modes: 1/D */
 	double *bands[4]; /* [faces + 1]: diagonals of K and M, and their coupling to the face before */
 	/* Of periodic ends, else without elements. With c = 1 at the first face and -1 at the last, the
 	 * solution z of a right side between walls becomes that on the ring by z - y (c z)/(c y). */
