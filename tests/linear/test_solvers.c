@@ -94,17 +94,19 @@ static void all_dry(int cells, double *h, double *b)
 	memset(h, 0, (size_t)cells * sizeof *h);
 }
 
+enum {
+	WILD = 1, /* an iteration need not converge, but has to say so */
+	RING = 2,
+	GRADED = 4 /* layers are the thinner the lower */
+};
+
 static const struct problem {
 	const char *name;
 	int layers, cells;
 	bool left_wall, right_wall;
 	void (*shape)(int cells, double *h, double *b);
 	int operator_; /* enum operator_kind */
-	enum {
-		WILD = 1, /* an iteration need not converge, but has to say so */
-		RING = 2,
-		GRADED = 4 /* layers are the thinner the lower */
-	} kind;
+	int kind;      /* of the above, added up */
 } problems[] = {
 	{"one unknown", 1, 1, true, false, flat, OPERATOR_SYMMETRIC, 0},
 	{"one cell between walls", 3, 1, true, true, flat, OPERATOR_SYMMETRIC, 0},
